@@ -95,6 +95,7 @@ std::vector<RecordingOptions> joint_options(RecordingOptions const& arm, std::ve
     Marks const of_torque = marks_of(torques[j], joint_names[torques[j]]);
     RecordingOptions one = arm;
     for (auto& [channel, column] : one.columns) column = filled(column, channel == "torque" ? of_torque : of_position);
+    for (auto& [channel, column] : one.clocks) column = filled(column, channel == "torque" ? of_torque : of_position);
     one.simulated_torque = filled(one.simulated_torque, of_torque);
     double const sign = of_joint(arm.joint_sign, j);
     one.position_per_unit *= sign;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/data/clock_blocks.hpp"
 #include "engine/data/columns.hpp"
 #include "engine/data/joint_numbers.hpp"
 
@@ -54,10 +55,15 @@ std::vector<LikelyColumn> switches_of(RawTable const& table) {
   return found;
 }
 
-// what may serve as the channel and is no switch
+// what may serve as the channel and is no switch, nor the clock of a block ("Position.X")
 std::vector<LikelyColumn> signals(RawTable const& table, std::string const& channel) {
   auto likely = likely_columns(channel, table.names, table.units);
-  std::erase_if(likely, [&](LikelyColumn const& one) { return is_switch(table, one.column); });
+  auto const clocks = clocks_of_columns(table);
+  std::erase_if(likely, [&](LikelyColumn const& one) {
+    bool const is_clock =
+        std::any_of(clocks.begin(), clocks.end(), [&](auto const& of) { return of.second == one.column; });
+    return is_clock || is_switch(table, one.column);
+  });
   return likely;
 }
 
@@ -88,6 +94,7 @@ namespace {
 // all that may serve as a channel, of any joint
 struct Candidates {
   std::vector<LikelyColumn> positions, torques, references, velocities, switches;
+  std::vector<LikelyColumn> leads;    // whose joints are counted: positions, in a file without any the velocities
   std::vector<NumberShift> shifts{};  // of torques and references
 
   Candidates(RawTable const& table, TorqueColumn torque)
@@ -95,17 +102,18 @@ struct Candidates {
         torques(torque == TorqueColumn::required ? signals(table, "torque") : std::vector<LikelyColumn>{}),
         references(signals(table, "reference")),
         velocities(signals(table, "velocity")),
-        switches(switches_of(table)) {
+        switches(switches_of(table)),
+        leads(positions.empty() ? velocities : positions) {
     for (auto* channel : {&torques, &references})
-      if (auto const shift = number_like(positions, *channel)) shifts.push_back(*shift);
-    number_like(positions, velocities);
+      if (auto const shift = number_like(leads, *channel)) shifts.push_back(*shift);
+    number_like(leads, velocities);
   }
 };
 
 // labels with a position and a torque, or in a file without one a reference, in the order of the file
 std::vector<std::string> joints_by(Label const& label, Candidates const& all, std::vector<std::string> const& names) {
   auto const have_torque = labels_of(all.torques.empty() ? all.references : all.torques, label);
-  std::vector<LikelyColumn> in_file_order = all.positions;
+  std::vector<LikelyColumn> in_file_order = all.leads;
   std::stable_sort(in_file_order.begin(), in_file_order.end(), [&](auto const& a, auto const& b) {
     return std::find(names.begin(), names.end(), a.column) < std::find(names.begin(), names.end(), b.column);
   });
@@ -127,7 +135,7 @@ bool numbers_tell(std::vector<std::string> const& joints) {
 // from 1: that of a column that a person named; 0 where no joint has it
 std::size_t joint_of(ChosenColumns const& named, Candidates const& all, Label const& label,
                      std::vector<std::string> const& joints) {
-  for (auto const& [channel, likely] : {std::pair{"position", &all.positions}, std::pair{"torque", &all.torques}})
+  for (auto const& [channel, likely] : {std::pair{"position", &all.leads}, std::pair{"torque", &all.torques}})
     for (auto const& one : *likely) {
       auto const given = named.find(channel);
       if (given == named.end() || one.column != given->second) continue;
@@ -191,9 +199,9 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn
   guess.joint = joint == 0 ? 1 : joint;
   std::vector<double> ranges;
   for (auto const& each : joints) {
-    auto const position = pick(table, all.positions, label, each);
-    ranges.push_back(position.most - position.least);
-    if (!position.column.empty()) guess.positions.push_back(position.column);
+    auto const lead = pick(table, all.leads, label, each);
+    ranges.push_back(lead.most - lead.least);
+    if (!lead.column.empty()) guess.positions.push_back(lead.column);
   }
   if (guess.joint > guess.joints) return guess;
   constexpr double hardly = 0.05;
@@ -216,7 +224,8 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn
   guess.reference = pick_of(all.references, chosen);
   guess.velocity = pick_of(all.velocities, chosen);
   // "drive_on" says no joint's name; where joints have one each, the number tells them apart
-  guess.enabled = pick(table, all.switches, by_number, guess.position.name.number);
+  auto const& lead = guess.position.column.empty() ? guess.velocity : guess.position;
+  guess.enabled = pick(table, all.switches, by_number, lead.name.number);
   if (guess.enabled.column.empty() && all.switches.size() == 1) guess.enabled = pick(table, all.switches, all_one, "");
   take_named(table, named, guess);
   return guess;

@@ -5,6 +5,7 @@
 //            no joint with position and torque, the number alone; then all columns are one joint
 //            A channel that counts joints from 1 beside positions from 0 is counted anew (joint_numbers.hpp)
 //            Without any torque: with position and reference
+//            Without any position: with velocity and torque
 // Switch     0 and 1 alone under a name that says enabled or on: never a torque
 // Order      joints as their position columns stand in the file; `joint` counts them from 1
 // Values     a column, or a joint, that never changes serves only where no other does; whole numbers without a unit
@@ -36,10 +37,10 @@ struct ChannelGuess {
 struct ColumnGuess {
   ChannelGuess position, torque, reference, velocity, enabled;
   std::size_t joint = 1, joints = 1;
-  std::vector<std::string> positions{};  // the position column of each joint
-  std::size_t moving_joints = 1;      // of them: over a twentieth of the largest range, and more
-  std::vector<NumberShift> shifts{};  // columns of one joint that have different numbers
-  std::size_t joint_that_moves = 1;   // `joint`, or where that hardly moves the one with the largest range
+  std::vector<std::string> positions{};  // the position column of each joint, or in a file without any its velocity
+  std::size_t moving_joints = 1;         // of them: over a twentieth of the largest range, and more
+  std::vector<NumberShift> shifts{};     // columns of one joint that have different numbers
+  std::size_t joint_that_moves = 1;      // `joint`, or where that hardly moves the one with the largest range
 };
 
 // columns that a person named, by channel: position, torque, reference, time

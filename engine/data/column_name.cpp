@@ -5,6 +5,7 @@
 
 #include "engine/data/compound_word.hpp"
 #include "engine/data/plain_spelling.hpp"
+#include "engine/data/repeated_names.hpp"
 
 namespace torquescope {
 namespace {
@@ -131,7 +132,7 @@ bool says_letter(std::string const& word, bool is_last, std::vector<ColumnWord>&
 
 ColumnName parse_column_name(std::string const& name, std::string const& units) {
   ColumnName parsed;
-  std::string text = with_plain_brackets(name);
+  std::string text = with_plain_brackets(without_repeat(name));
   parsed.unit_text = take_bracketed_unit(text);
   auto pieces = pieces_of(text);
   if (parsed.unit_text.empty()) parsed.unit_text = take_unit_word(pieces);
@@ -158,6 +159,7 @@ ColumnName parse_column_name(std::string const& name, std::string const& units) 
     parsed.words.insert(parsed.words.end(), all.begin(), all.end());
     if (all.empty()) parsed.rest += (parsed.rest.empty() ? "" : " ") + word;
   }
+  if (parsed.number.empty()) parsed.number = number_of_repeat(name);
   return parsed;
 }
 

@@ -4,7 +4,8 @@
 // Words      lower case, split at all that is no letter and where a capital follows a small letter; "qref" and "ides"
 //            are two: a quantity and whether it was commanded
 // Unit       of the row of units, else what stands in brackets, or the last word that is one
-// Joint      the last number; with the words that say nothing ("left_arm") it tells joints of one file apart
+// Joint      the last number, or that of a repeated name ("Torque#2"); with
+//            the words that say nothing ("left_arm") it tells joints of one file apart
 // Threads    functions of their arguments
 
 #include <optional>

@@ -9,6 +9,7 @@
 
 #include "engine/data/column_suggestion.hpp"
 #include "engine/data/data_problem.hpp"
+#include "engine/data/repeated_names.hpp"
 
 namespace torquescope {
 namespace {
@@ -75,7 +76,12 @@ class ColumnPicker {
       throw Error(std::move(problems_));
     }
     for (auto const& [channel, column] : options_.columns) check_channel(channel);
-    if (!options_.columns.contains("position")) missing("position", "columns names no position");
+    bool const has_position = options_.columns.contains("position"),
+               has_velocity = options_.columns.contains("velocity");
+    if (!has_position && !has_velocity) missing("position", "columns names no position");
+    if (!has_position && has_velocity && options_.columns.contains("reference"))
+      add(ExitCode::bad_job, "reference without position: a velocity alone does not say where the joint stood",
+          "reference", "take reference out of columns, or name the position column");
     if (torque_ == TorqueColumn::required && !options_.columns.contains("torque"))
       missing("torque", "columns names no torque");
     bool const has_time = options_.columns.contains("time"), has_rate = options_.rate_hz > 0;
@@ -128,6 +134,13 @@ class ColumnPicker {
     return {};
   }
 
+  std::vector<std::string> repeats_of(std::string const& column) const {
+    std::vector<std::string> same;
+    for (auto const& name : table_.names)
+      if (name != column && without_repeat(name) == column) same.push_back(name);
+    return same;
+  }
+
   void not_found(std::string const& channel, std::string const& column) {
     for (auto const& unusable : table_.unusable) {
       if (!ends_in(unusable.name, column)) continue;
@@ -139,7 +152,11 @@ class ColumnPicker {
     add(ExitCode::bad_job, fmt::format("no column \"{}\" in {}", column, file_name(table_)), channel, "");
     problems_.back().notes.push_back("the file has: " + listed(table_.names));
     auto const similar = closest_name(column, table_.names);
-    if (similar.empty())
+    if (auto const same = repeats_of(column); !same.empty()) {
+      problems_.back().code = ExitCode::bad_data;
+      problems_.back().what = fmt::format("{} has {} columns called \"{}\"", file_name(table_), same.size(), column);
+      problems_.back().help = fmt::format("write one of \"{}\", in the order of the file", fmt::join(same, "\", \""));
+    } else if (similar.empty())
       problems_.back().help = mapping_advice(channel, table_.names);
     else
       problems_.back().caret_note = fmt::format("did you mean \"{}\"?", similar);

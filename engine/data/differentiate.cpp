@@ -36,6 +36,7 @@ Motion differentiate_smooth(Recording&& recording) {
                                                  : central_derivative(motion.dq, motion.rate_hz);
   motion.torque = std::move(recording.torque);
   motion.left_out = std::move(recording.left_out);
+  motion.left_out_because = std::move(recording.left_out_because);
   return motion;
 }
 
@@ -50,19 +51,24 @@ Motion thinned(Motion const& motion, Eigen::Index first, Eigen::Index step) {
           every(motion.dq),
           every(motion.ddq),
           every(motion.torque),
-          motion.left_out};
+          motion.left_out,
+          motion.left_out_because};
+}
+
+SampleRange samples_left_out(Stretch const& stretch, Eigen::Index n, double rate_hz, double cutoff_hz) {
+  // what was filled is smooth: one period of the cut-off around it is enough, where three are at an end
+  double const reach_s = cutoff_hz > 0.0 ? 1.0 / cutoff_hz : 0.0;
+  auto const first = static_cast<Eigen::Index>(std::ceil((stretch.from_s - reach_s) * rate_hz));
+  auto const last = static_cast<Eigen::Index>(std::floor((stretch.until_s + reach_s) * rate_hz));
+  return {std::max<Eigen::Index>(0, first), std::min(n, last + 1)};
 }
 
 std::vector<bool> left_out_samples(Motion const& motion, double cutoff_hz) {
   auto const n = motion.time_s.size();
   std::vector<bool> left_out(static_cast<std::size_t>(n), false);
-  // what was filled is smooth: one period of the cut-off around it is enough, where three are at an end
-  double const reach_s = cutoff_hz > 0.0 ? 1.0 / cutoff_hz : 0.0;
   for (auto const& stretch : motion.left_out) {
-    auto const first = static_cast<Eigen::Index>(std::ceil((stretch.from_s - reach_s) * motion.rate_hz));
-    auto const last = static_cast<Eigen::Index>(std::floor((stretch.until_s + reach_s) * motion.rate_hz));
-    for (Eigen::Index k = std::max<Eigen::Index>(0, first); k <= std::min(n - 1, last); ++k)
-      left_out[static_cast<std::size_t>(k)] = true;
+    auto const range = samples_left_out(stretch, n, motion.rate_hz, cutoff_hz);
+    for (Eigen::Index k = range.first; k < range.end; ++k) left_out[static_cast<std::size_t>(k)] = true;
   }
   return left_out;
 }
@@ -87,6 +93,7 @@ Motion differentiate(Recording const& recording, FilterOptions const& options, S
   channels.acceleration = recording.acceleration;
   channels.left_out = recording.left_out;
   channels.rows = recording.rows;
+  channels.left_out_because = recording.left_out_because;
   return differentiate(std::move(channels), options, section);
 }
 

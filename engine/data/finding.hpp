@@ -35,6 +35,7 @@ enum class FindingKind {
   unit_in_name,         // size: SI value of one unit; detail: the unit's name; other: the key to write
   unit_of_current,      // detail: the unit's name
   speed_implausible,    // size: rad/s
+  position_integrated,  // of the velocity in `column`, from zero; size: range of the motion, SI
   command_as_position,  // detail: the column that looks measured
   // torque
   torque_spikes,      // size: the largest

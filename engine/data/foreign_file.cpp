@@ -39,21 +39,6 @@ constexpr Export tdms{"export one group as CSV (pip install nptdms pandas):",
 constexpr Export mdf{"export it as CSV (pip install asammdf):",
                      "python3 -c 'from asammdf import MDF; MDF({0}).to_dataframe().to_csv({1})'"};
 constexpr Export ulog{"export it as CSV, a file per topic (pip install pyulog):", "ulog2csv {2}"};
-// without pandas; nested records become columns with a path: {"joint": {"q": [1, 2]}} -> joint.q.0, joint.q.1
-#define TORQUESCOPE_ROWS_OF_JSON                                                                          \
-  "F = lambda x, n: {{k: v for i, y in (x.items() if isinstance(x, dict) else enumerate(x)) for k, v in " \
-  "F(y, f\"{{n}}.{{i}}\" if n else str(i)).items()}} if isinstance(x, (dict, list)) else {{n: x}}; "      \
-  "R = [F(r, \"\") for r in d]; w = csv.DictWriter(open({1}, \"w\", newline=\"\"), "                      \
-  "list(dict.fromkeys(k for r in R for k in r))); w.writeheader(); w.writerows(R)'"
-constexpr Export json{
-    "write its records as CSV:",
-    "python3 -c 'import csv, json; d = json.load(open({0})); d = d if isinstance(d, list) else next((v for v in "
-    "d.values() if isinstance(v, list) and v and isinstance(v[0], dict)), None) or "
-    "[dict(zip(d, r)) for r in zip(*d.values())]; " TORQUESCOPE_ROWS_OF_JSON};
-constexpr Export json_lines{
-    "write its records as CSV:",
-    "python3 -c 'import csv, json; d = [json.loads(l) for l in open({0}) if l.strip()]; " TORQUESCOPE_ROWS_OF_JSON};
-#undef TORQUESCOPE_ROWS_OF_JSON
 constexpr Export yaml{
     "echo the topic as CSV: ros2 topic echo --csv TOPIC > topic.csv, or rostopic echo -p TOPIC in ROS 1"};
 constexpr Export unpack{"unpack it first and name what is in it"};
@@ -147,13 +132,6 @@ Problem problem_of(std::filesystem::path const& path, std::string_view is, Expor
 }
 
 // text that is no table
-// JSON lines: {"t": 0} and {"t": 1} below it
-bool is_record_a_line(std::string_view text) {
-  auto const end = text.find_first_of("\r\n");
-  auto const next = end == std::string_view::npos ? end : text.find_first_not_of(" \t\r\n", end);
-  return text.front() == '{' && end > 0 && next != std::string_view::npos && text[end - 1] == '}' && text[next] == '{';
-}
-
 std::optional<Problem> foreign_text(std::filesystem::path const& path, std::string_view bytes) {
   auto const text = trimmed_front(bytes);
   auto const lower = lower_case(text.substr(0, 1000));
@@ -162,10 +140,6 @@ std::optional<Problem> foreign_text(std::filesystem::path const& path, std::stri
   if (lower.starts_with("<?xml") || lower.starts_with("<robot") || lower.starts_with("<mujoco") ||
       lower.starts_with("<sdf"))
     return problem_of(path, holds(lower, "<robot") ? "a URDF file" : "an XML file", robot);
-  bool const is_json =
-      text.starts_with("{") || text.starts_with("[{") || text.starts_with("[\n") || text.starts_with("[\r");
-  if (is_json && (holds(text, "\":") || holds(text, "\" :")))
-    return problem_of(path, "a JSON file", is_record_a_line(text) ? json_lines : json);
   for (std::string_view section : {"[experiment]", "[recording]", "[model]", "[[estimator]]", "[filter]"})
     if (first_line.starts_with(section)) return problem_of(path, "a job of Torquescope", job);
   bool const is_echo = lower.starts_with("header:") && holds(lower, "stamp:");

@@ -24,7 +24,15 @@ struct Motion {
   Eigen::VectorXd ddq;
   Eigen::VectorXd torque;  // not filtered
   std::vector<Stretch> left_out{};
+  std::vector<LeftOutStretch> left_out_because{};  // the same one by one
 };
+
+// first to end (not in it); empty where first >= end
+struct SampleRange {
+  Eigen::Index first = 0, end = 0;
+};
+// of n samples, what one stretch leaves out: as below
+SampleRange samples_left_out(Stretch const& stretch, Eigen::Index n, double rate_hz, double cutoff_hz);
 
 // samples that no row may stand for: those of left_out, and as far around them as a filter of this cut-off remembers
 std::vector<bool> left_out_samples(Motion const& motion, double cutoff_hz);

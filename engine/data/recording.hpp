@@ -45,6 +45,18 @@ struct LoneRow {
   std::string column{};
 };
 
+enum class LeftOutReason {
+  asked_for,  // recording.leave_out
+  no_rows,    // a gap of the clock
+  no_value    // a channel holds none, or none that can be true, over more samples than are filled
+};
+struct LeftOutStretch {
+  Stretch where{};
+  LeftOutReason reason = LeftOutReason::no_value;
+  std::string column{};   // of the channel without a value
+  bool of_motion = true;  // nobody knows how the joint moved: joints that feel it need it too. false: only its torque
+};
+
 struct Recording {
   std::string name;    // file name without its folder, or "simulated"
   std::string sha256;  // of the bytes that were parsed (before decompression), or of the simulated numbers
@@ -70,8 +82,9 @@ struct Recording {
   // what the other joints of an arm do to this one; no channel: a diagnosis fills it
   std::shared_ptr<GivenSignals const> given{};
   std::vector<DataWarning> warnings{};
-  std::vector<Finding> findings{};  // of the examination (engine/health)
-  std::vector<Stretch> left_out{};  // no row within them is fitted: what stands there was filled
+  std::vector<Finding> findings{};                 // of the examination (engine/health)
+  std::vector<Stretch> left_out{};                 // no row within them is fitted: what stands there was filled
+  std::vector<LeftOutStretch> left_out_because{};  // the same stretches one by one; they may overlap
   RowFacts rows{};
   std::vector<LoneRow> lone{};
 };

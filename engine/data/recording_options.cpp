@@ -14,6 +14,9 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
         "channel = \"column\"; channels: time, position, torque (required), reference, velocity, acceleration, and for "
         "rollouts added_command (to the drive's command), external_torque, enabled (0: the drive is off); of an arm "
         "\"q{j}_rad\" is q1_rad, q2_rad, ..., and {name} the joint's name"},
+       {"clocks", &Options::clocks,
+        "channel = \"column\" with the time stamps of that channel, where it has its own: \"X, Y, X, Y\" of an "
+        "oscilloscope; the position is on columns.time, and all clocks count in one unit"},
        {"torque_per_unit", &Options::torque_per_unit,
         "N m (or N) per unit of the torque column, e.g. N m per A; of an arm one number, or one for each joint"},
        {"position_per_unit", &Options::position_per_unit,

@@ -21,6 +21,7 @@ struct RecordingOptions {
   std::vector<std::string> validate{};
   std::map<std::string, std::string>
       columns{};  // channel -> column: time, position, torque, reference, velocity, acceleration, and input_channels()
+  std::map<std::string, std::string> clocks{};  // channel -> its own time column, where it is not columns.time
   // N m per unit of the torque column (A, V, N): of the joint, or of each joint of an arm
   std::vector<double> torque_per_unit{1.0};
   double position_per_unit = 1.0;                 // rad per unit of position, reference, velocity, acceleration columns
@@ -70,6 +71,7 @@ struct RawTable {
   std::vector<UnusableColumn> unusable{};    // an error only if the job names one of them
   std::vector<std::string> units{};          // as the file writes them, one per column ("rad/s", ""); or none at all
   std::vector<std::string> remarks{};        // sentences: what the reader did on its own
+  bool has_merged_clocks = false;            // rows of several clocks in turn (own_clocks.hpp)
 };
 
 // one per file in readers/; chosen by content, never by extension

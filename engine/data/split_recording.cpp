@@ -26,6 +26,11 @@ Recording part_of(Recording const& whole, Eigen::Index first, Eigen::Index count
     Stretch const inside{std::max(stretch.from_s - from_s, 0.0), std::min(stretch.until_s - from_s, length_s)};
     if (inside.from_s < inside.until_s) part.left_out.push_back(inside);
   }
+  part.left_out_because.clear();
+  for (auto one : whole.left_out_because) {
+    one.where = {std::max(one.where.from_s - from_s, 0.0), std::min(one.where.until_s - from_s, length_s)};
+    if (one.where.from_s < one.where.until_s) part.left_out_because.push_back(std::move(one));
+  }
   return part;
 }
 

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/data/repeated_names.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -95,7 +97,8 @@ std::optional<NamedUnit> unit_of_name(std::string const& column, std::string con
     std::string const inner = in_brackets(written);
     return known_unit(inner.empty() ? written : lowered(inner));
   }
-  std::string const name = lowered(column.substr(column.find_last_of('/') + 1));
+  std::string const plain = without_repeat(column);
+  std::string const name = lowered(plain.substr(plain.find_last_of('/') + 1));
   if (auto const bracketed = in_brackets(name); !bracketed.empty()) return known_unit(lowered(bracketed));
   // words of one letter after the name ("i_A", "u_V", "t_s", "F_N") count, "joint.v" does not
   auto const last = name.find_last_of("_ ");

@@ -284,11 +284,24 @@ class Search {
     });
     accepted_[law].gain = gain;
     for (auto const& one : tried) accepted_[law].rivals.push_back(one.facts.effect);
+    if (auto const weight = weight_in_place_of(*effect, tried); weight != tried.end())
+      return stand_instead(law, std::move(*weight));
     auto const best = std::min_element(tried.begin(), tried.end(), [](TriedLaw const& a, TriedLaw const& b) {
       return a.facts.judged_after < b.facts.judged_after;
     });
     if (rows().validation.empty() || best == tried.end()) return;
     if (best->facts.judged_after < judged_) stand_instead(law, std::move(*best));
+  }
+
+  // Every link has a weight unless its axis is upright, few have a spring: where both serve, the weight stands first.
+  // Other recordings may speak against it
+  std::vector<TriedLaw>::iterator weight_in_place_of(Effect const& effect, std::vector<TriedLaw>& tried) const {
+    if (effect.family() != EffectFamily::static_position || effect.is_weight()) return tried.end();
+    return std::find_if(tried.begin(), tried.end(), [&](TriedLaw const& one) {
+      bool const is_refuted =
+          !rows().validation.empty() && (1.0 - q_.numbers.least_fall) * one.facts.judged_after > judged_;
+      return one.facts.effect->is_weight() && !is_refuted;
+    });
   }
 
   void stand_instead(std::size_t law, TriedLaw by) {

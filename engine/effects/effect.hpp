@@ -168,6 +168,8 @@ class Effect {
   bool is_level_free() const { return description_.is_level_free; }
   bool is_torque_timing() const { return description_.is_torque_timing; }
   bool is_rigid_body() const { return description_.is_rigid_body; }
+  // of the moved body, over the position: what every link has unless its axis is upright
+  bool is_weight() const { return is_rigid_body() && family() == EffectFamily::static_position; }
   bool is_given() const { return description_.is_given; }
   bool is_of_whole_arm() const { return description_.is_of_whole_arm; }
   std::string const& plain_equation() const { return description_.plain_equation; }

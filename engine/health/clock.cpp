@@ -245,7 +245,7 @@ void examine_clock(Examination& exam) {
   unroll(exam, stamps, per_unit);
   sort_rows(exam, stamps);
   drop_repeats(exam, stamps);
-  spread_bursts(exam, stamps);
+  if (!exam.table.has_merged_clocks) spread_bursts(exam, stamps);  // rows of two clocks stand unevenly
   exam.time_s = std::move(stamps);
 }
 

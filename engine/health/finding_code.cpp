@@ -43,6 +43,8 @@ std::string code_of(FindingKind kind) {
       return "unit_of_current";
     case speed_implausible:
       return "speed_implausible";
+    case position_integrated:
+      return "position_integrated";
     case command_as_position:
       return "command_as_position";
     case torque_spikes:

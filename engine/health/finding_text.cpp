@@ -88,6 +88,11 @@ std::string what(Finding const& f) {
       return fmt::format("{} is in {}, not N m: every parameter would be in units of that", column, f.detail);
     case speed_implausible:
       return fmt::format("the joint would turn at {:.3g} rad/s: is {} in rad?", f.size, column);
+    case position_integrated:
+      return fmt::format(
+          "no position: the velocity {} was integrated, from zero at the first row (over {:.3g} {}). The true start is "
+          "unknown: the phase of gravity and ripples, and where a spring rests, are told up to it",
+          column, f.size, f.unit);
     case command_as_position:
       return fmt::format("the position column {} is called a command: the measured position is wanted{}", column,
                          f.detail.empty() ? "" : ", perhaps \"" + f.detail + "\"");
@@ -223,6 +228,7 @@ std::string cure_of(Finding const& f) {
     case position_in_counts:
       return "position_per_unit = 6.283185307 / (counts per turn x gear ratio)      (rad per count, as a number)";
     case unit_in_name:
+      if (!f.line_to_write.empty()) return f.line_to_write;
       return f.detail.starts_with("N") || f.detail.starts_with("mN")
                  ? fmt::format("torque_per_unit = {:.10g}", f.size)
                  : fmt::format("position_per_unit = {:.10g}      (write 1 if the name is wrong)", f.size);

@@ -5,16 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "engine/data/columns.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/gaps.hpp"
 #include "engine/data/levels.hpp"
+#include "engine/data/own_clocks.hpp"
 #include "engine/data/resample.hpp"
 #include "engine/data/sampling.hpp"
 #include "engine/data/signal_facts.hpp"
 #include "engine/health/channel_units.hpp"
 #include "engine/health/clock.hpp"
+#include "engine/health/integrated_position.hpp"
 #include "engine/health/lone_rows.hpp"
 #include "engine/health/no_command.hpp"
 #include "engine/health/reference_channel.hpp"
@@ -87,7 +90,8 @@ void check_rows(RawTable const& table) {
 
 void check_moves(Channels const& channels, RawTable const& table) {
   std::vector<Problem> problems;
-  for (auto const* name : {"position", "torque", "simulated_torque"}) {
+  bool const has_position = channels.contains("position");
+  for (auto const* name : {has_position ? "position" : "velocity", "torque", "simulated_torque"}) {
     auto const channel = channels.find(name);
     if (channel == channels.end()) continue;
     auto const& values = channel->second.values;
@@ -163,11 +167,18 @@ KnownValues known_values(Examination const& exam, std::vector<double> const& val
   return known;
 }
 
+struct HoleyColumn {
+  std::string name;
+  bool tells_motion = true;
+};
+
 // where the grid has no value near: longer than the longest gap that is filled, in samples of the channel
 void add_holes(KnownValues const& known, std::vector<double> const& grid, double rate_hz, double delay_s,
-               std::vector<Stretch>& left_out) {
+               HoleyColumn const& column, std::vector<LeftOutStretch>& left_out) {
   double const longest = (longest_filled_gap + 1.5) / rate_hz;
-  auto const add = [&](double from, double until) { left_out.push_back({from + delay_s, until + delay_s}); };
+  auto const add = [&](double from, double until) {
+    left_out.push_back({{from + delay_s, until + delay_s}, LeftOutReason::no_value, column.name, column.tells_motion});
+  };
   if (known.times.front() > grid.front() + longest) add(grid.front(), known.times.front());
   for (std::size_t k = 1; k < known.times.size(); ++k)
     if (known.times[k] - known.times[k - 1] > longest) add(known.times[k - 1], known.times[k]);
@@ -246,7 +257,8 @@ std::vector<std::size_t> rows_of_position(Examination& exam) {
   std::vector<std::size_t> carrying;
   for (std::size_t row : all)
     if (std::isfinite(values[exam.order[row]])) carrying.push_back(row);
-  bool const is_merged = static_cast<double>(carrying.size()) < (1.0 - another_topic) * static_cast<double>(all.size());
+  bool const is_merged = exam.table.has_merged_clocks ||
+                         static_cast<double>(carrying.size()) < (1.0 - another_topic) * static_cast<double>(all.size());
   return is_merged && exam.has("time") ? carrying : all;
 }
 
@@ -258,6 +270,7 @@ void examine(Examination& exam) {
   if (exam.has("time")) examine_clock(exam);
   if (exam.time_s.empty())
     for (std::size_t i = 0; i < exam.rows(); ++i) exam.time_s.push_back(static_cast<double>(i) / exam.options.rate_hz);
+  if (!exam.has("position")) integrate_velocity(exam);
   examine_constant_reference(exam);
   take_out_stop_codes(exam);     // they look like a register without its sign, or sentinels
   examine_values_outside(exam);  // a register or a modulus is never told from these
@@ -288,7 +301,9 @@ Sampling sampling_of(Examination const& exam, std::vector<std::size_t> const& sa
 }
 
 // each stretch once, in order
-std::vector<Stretch> merged(std::vector<Stretch> stretches) {
+std::vector<Stretch> merged(std::vector<LeftOutStretch> const& because) {
+  std::vector<Stretch> stretches;
+  for (auto const& one : because) stretches.push_back(one.where);
   std::sort(stretches.begin(), stretches.end(), [](auto const& a, auto const& b) { return a.from_s < b.from_s; });
   std::vector<Stretch> whole;
   for (auto const& stretch : stretches) {
@@ -312,9 +327,12 @@ void report_left_out(Examination& exam, std::vector<Stretch> const& stretches) {
 
 }  // namespace
 
-Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section,
+Recording make_recording(RawTable const& whole, RecordingOptions const& options, Section const& section,
                          OtherJoints others, TorqueColumn torque) {
   check_options(options, section);
+  std::optional<RawTable> merged_clocks;
+  if (!options.clocks.empty()) merged_clocks = on_one_clock(whole, options, section, torque);
+  RawTable const& table = merged_clocks ? *merged_clocks : whole;
   Examination exam{table, options, section, pick_channels(table, options, section, torque)};
   check_rows(table);
   auto missing_words = missing_values(exam.channels, table, options);
@@ -337,17 +355,21 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   recording.rate_hz = sampling.rate_hz;
   recording.time_s = Eigen::Map<Eigen::VectorXd const>(grid.data(), static_cast<Eigen::Index>(grid.size())).array() +
                      exam.first_stamp_s;
-  recording.left_out = sampling.gaps;
+  auto& because = recording.left_out_because;
+  for (auto const& gap : sampling.gaps) because.push_back({gap, LeftOutReason::no_rows});
   for (std::size_t k = 0; k < options.leave_out.size(); k += 2)
-    recording.left_out.push_back(
-        {options.leave_out[k] - exam.first_stamp_s, options.leave_out[k + 1] - exam.first_stamp_s});
+    because.push_back({{options.leave_out[k] - exam.first_stamp_s, options.leave_out[k + 1] - exam.first_stamp_s},
+                       LeftOutReason::asked_for});
   auto const take = [&](char const* name, Eigen::VectorXd& out, double delay_s) {
     auto const channel = exam.channels.find(name);
     if (channel == exam.channels.end()) return;
     auto const known = known_values(exam, channel->second.values, sampling, sampled);
     auto const source = exam.source_hz.find(name);
     double const own_hz = source == exam.source_hz.end() ? sampling.rate_hz : source->second;
-    add_holes(known, grid, own_hz, delay_s, recording.left_out);
+    std::string const channel_name = name;
+    bool const tells_motion =
+        channel_name == "position" || channel_name == "velocity" || channel_name == "acceleration";
+    add_holes(known, grid, own_hz, delay_s, {channel->second.column, tells_motion}, because);
     out = on_grid(known, sampling, grid, delay_s) * unit_of(name, options);
   };
   take("position", recording.position, 0.0);
@@ -369,7 +391,7 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   take("enabled", recording.enabled, 0.0);
   recording.enabled = (recording.enabled.array() > half).cast<double>();
   if (others == OtherJoints::kept) take_other_joints(exam, sampling, sampled, grid, recording);
-  recording.left_out = merged(std::move(recording.left_out));
+  recording.left_out = merged(because);
   report_left_out(exam, recording.left_out);
 
   recording.rows = sampling.facts;

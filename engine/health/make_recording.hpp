@@ -6,6 +6,7 @@
 // Left out   stretches without values, and those of recording.leave_out: filled, and not looked at
 //            (Recording::left_out)
 // Faults     are findings as well: who calls decides whether they end the work (health/finding_text.hpp)
+// Position   the integral of the velocity where columns names none (integrated_position.hpp)
 // Torque     zeros where TorqueColumn::optional and the mapping names none
 // Errors     Error 78 of the mapping; 65: too few rows, a signal that never changes, a clock that cannot be mended
 // Threads    free function

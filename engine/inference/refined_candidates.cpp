@@ -130,6 +130,18 @@ RefinedCandidate refined_candidate(Evidence const& evidence, CandidateEvidence c
   return best;
 }
 
+namespace {
+
+// Where the first is a law of the position like a spring, the weight of the link goes before it: every link has one
+void put_weight_first(std::vector<RefinedCandidate>::iterator first, std::vector<RefinedCandidate>::iterator last) {
+  if (first == last || first->evidence.scan.effect->family() != EffectFamily::static_position) return;
+  auto const weight =
+      std::find_if(first, last, [](RefinedCandidate const& one) { return one.evidence.scan.effect->is_weight(); });
+  if (weight != last) std::rotate(first, weight, weight + 1);
+}
+
+}  // namespace
+
 std::vector<RefinedCandidate> in_order(std::vector<RefinedCandidate> candidates, RowsLeft const& without_any,
                                        double tolerance) {
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -143,6 +155,7 @@ std::vector<RefinedCandidate> in_order(std::vector<RefinedCandidate> candidates,
     bool const a_once = is_clock_bound(*a.evidence.scan.effect), b_once = is_clock_bound(*b.evidence.scan.effect);
     return a_once != b_once ? b_once : a.n_parameters < b.n_parameters;
   });
+  put_weight_first(candidates.begin(), tied);
   return candidates;
 }
 

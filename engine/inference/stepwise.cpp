@@ -13,6 +13,7 @@
 #include "engine/inference/pooled_fit.hpp"
 #include "engine/inference/refined_candidates.hpp"
 #include "engine/inference/simulated_candidate.hpp"
+#include "engine/inference/weight_in_place.hpp"
 #include "engine/search/joint_refinement.hpp"
 #include "engine/search/reached_bound.hpp"
 #include "engine/statistics/twin_null.hpp"
@@ -121,6 +122,7 @@ class Search {
     for (RefinedCandidate const& candidate : candidates)
       if (take(candidate, catalogue)) {
         drop_superfluous();
+        prefer_weight();
         return true;
       }
     return false;
@@ -258,6 +260,16 @@ class Search {
       next.selection.accepted.erase(next.selection.accepted.begin() + at);
       add(std::move(next), std::move(*stage));
     }
+  }
+
+  // the last state is that one: with the other law it predicts no less, and would be kept instead
+  void prefer_weight() {
+    SearchState const& last = result_.end();
+    auto made = with_weight_in_place(setting(), last.selection, *last.evidence, options_.candidates, levels_,
+                                     {options_.shape_optimiser, setting().seed, setting().threads});
+    if (!made) return;
+    result_.states.pop_back();
+    add({std::move(made->selection)}, std::move(made->stage));
   }
 
   // the law whose removal is nearest to chance, where it is within it

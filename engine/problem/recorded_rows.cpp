@@ -1,9 +1,11 @@
 #include "engine/problem/recorded_rows.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/base/contract.hpp"
 #include "engine/data/filter_checks.hpp"
+#include "engine/problem/joint_dependence.hpp"
 
 namespace torquescope {
 namespace {
@@ -14,16 +16,27 @@ Eigen::VectorXd as_numbers(std::vector<bool> const& flags) {
   return numbers;
 }
 
-// kept samples that some joint leaves out
-std::vector<bool> left_out_instants(std::vector<Motion> const& motion, FilterOptions const& options,
-                                    ParallelFilter const& filter) {
-  std::vector<bool> out(static_cast<std::size_t>(filter.kept_samples()), false);
-  for (auto const& joint : motion) {
-    if (joint.left_out.empty()) continue;
-    Eigen::VectorXd const picked = filter.pick(as_numbers(left_out_samples(joint, parallel_cutoff_of(options))));
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = out[i] || picked[static_cast<Eigen::Index>(i)] != 0.0;
-  }
-  return out;
+// why each stretch is left out; of a motion that was simulated nobody has said it
+std::vector<LeftOutStretch> reasons_of(Motion const& motion) {
+  if (!motion.left_out_because.empty()) return motion.left_out_because;
+  std::vector<LeftOutStretch> because;
+  for (auto const& stretch : motion.left_out) because.push_back({stretch});
+  return because;
+}
+
+// of a joint: its own stretches, and those in which nobody knows the motion of a joint that it feels
+std::vector<std::vector<LeftOutStretch>> stretches_of_joints(std::vector<Motion> const& motion, ArmModel const& model) {
+  std::vector<std::vector<LeftOutStretch>> of_joints;
+  for (auto const& joint : motion) of_joints.push_back(reasons_of(joint));
+  auto const own = of_joints;
+  if (std::all_of(own.begin(), own.end(), [](auto const& one) { return one.empty(); })) return of_joints;
+  auto const depends = motion_dependence(model);
+  for (std::size_t j = 0; j < own.size(); ++j)
+    for (std::size_t k = 0; k < own.size(); ++k)
+      if (j != k && depends[j][k])
+        for (auto const& stretch : own[k])
+          if (stretch.of_motion) of_joints[j].push_back(stretch);
+  return of_joints;
 }
 
 JointRows picked_rows(JointRows const& all, std::vector<Eigen::Index> const& rows) {
@@ -48,7 +61,7 @@ RecordedRows make_recorded_rows(std::string recording, std::vector<Motion> const
   rows.rate_hz = first.rate_hz;
   rows.kept_rate_hz = filter.kept_rate_hz();
   rows.instants = filter.kept_samples();
-  auto const out = left_out_instants(motion, options, filter);
+  auto const left_out = stretches_of_joints(motion, model);
   auto columns = model.rows(motion, payload);
   for (std::size_t j = 0; j < motion.size(); ++j) {
     JointRows all;
@@ -61,9 +74,15 @@ RecordedRows make_recorded_rows(std::string recording, std::vector<Motion> const
     all.dq = filter.pick(motion[j].dq);
     all.ddq = filter.pick(motion[j].ddq);
     Eigen::VectorXd const is_moving = filter.pick(as_numbers(moves[j]));
+    auto const stretch =
+        stretch_of_samples(left_out[j], motion[j].q.size(), rows.rate_hz, filter, parallel_cutoff_of(options));
     std::vector<Eigen::Index> moving, others;
-    for (Eigen::Index i = 0; i < rows.instants; ++i)
-      if (!out[static_cast<std::size_t>(i)]) (is_moving[i] != 0.0 ? moving : others).push_back(i);
+    std::vector<bool> turns;
+    for (Eigen::Index i = 0; i < rows.instants; ++i) {
+      turns.push_back(is_moving[i] == 0.0);
+      if (stretch[static_cast<std::size_t>(i)] < 0) (turns.back() ? others : moving).push_back(i);
+    }
+    rows.accounts.push_back(row_account(left_out[j], stretch, turns, motion[j].q.size(), filter));
     rows.moving.push_back(picked_rows(all, moving));
     rows.others.push_back(picked_rows(all, others));
   }

@@ -2,7 +2,8 @@
 // One recording of an arm as rows of every joint, after the parallel filter: columns of the joint's own parameters.
 //
 // Rows       those where the joint moves one way, and the others: near a reversal friction changes its sign within the
-//            filter's memory. Instants that the recording leaves out are in neither
+//            filter's memory. Neither has instants at which the torque of the joint, or the motion of one that it feels
+//            (joint_dependence.hpp), is left out
 // Shapes     columns: n x ArmModel::parameters_of(joint); instant: index of the kept sample, equal in all joints
 // Units      N m or N; s; rad or m
 // Errors     as differentiate() and ParallelFilter
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/data/row_account.hpp"
 #include "engine/problem/arm_model.hpp"
 
 namespace torquescope {
@@ -27,6 +29,7 @@ struct RecordedRows {
   double rate_hz = 0.0, kept_rate_hz = 0.0;
   Eigen::Index instants = 0;              // kept samples
   std::vector<JointRows> moving, others;  // [N]
+  std::vector<RowAccount> accounts{};     // [N] of the moving ones
 };
 
 // motion: one a joint; moves: [N][n], true where the joint surely moves one way; payload: which one the arm carries.

@@ -167,6 +167,8 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
   whole.findings = joined_findings(whole.findings);
   auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter, file.payload);
   set.recordings.push_back(std::move(whole));
+  set.accounts.push_back(rows.accounts);
+  for (std::size_t j = 0; j < names.size(); ++j) set.accounts.back()[j].joint = joint_title(j, names);
   return rows;
 }
 

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "engine/base/stack_limit.hpp"
+#include "engine/data/filter_checks.hpp"
 #include "engine/data/filter_suggestion.hpp"
+#include "engine/data/row_account.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/health/make_recording.hpp"
 #include "engine/problem/position_factor.hpp"
@@ -180,7 +182,16 @@ Recording taken_channels(Recording& recording) {
   taken.torque = std::move(recording.torque);
   taken.left_out = std::move(recording.left_out);
   taken.rows = recording.rows;
+  taken.left_out_because = std::move(recording.left_out_because);
   return taken;
+}
+
+// least squares looks at turns as well
+RowAccount account_of(Motion const& motion, FilterOptions const& options, Section const& section) {
+  ParallelFilter const filter(options, motion.rate_hz, motion.q.size(), section);
+  auto const stretch =
+      stretch_of_samples(motion.left_out_because, motion.q.size(), motion.rate_hz, filter, parallel_cutoff_of(options));
+  return row_account(motion.left_out_because, stretch, {}, motion.q.size(), filter);
 }
 
 // the rows of the fit, and what the motion can tell; excitation's warnings join those of the recording
@@ -199,6 +210,7 @@ void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
                                                : differentiate(taken_channels(recording), parts.filter, filter);
     if (channels == Channels::taken) forget_channels(recording);
     measure_motion(motion, parts.filter, facts);
+    set.accounts.push_back({account_of(motion, parts.filter, filter)});
     for (auto const& warning : excitation_warnings(facts, unit)) recording.warnings.push_back(warning);
     set.excitation.push_back(facts);
     append_rows(set.regression, recording.name, std::move(motion), parts.filter, *parts.regressor, filter, row_motion);

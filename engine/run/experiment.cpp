@@ -239,6 +239,8 @@ std::vector<CheckLine> Experiment::check(int threads) const {
       lines.push_back(
           {Level::ok, purpose,
            fmt::format("{}: {} samples at {:.6g} Hz", recording.name, set.n_samples[k], recording.rate_hz)});
+      if (k < set.accounts.size())
+        for (auto const& account : set.accounts[k]) lines.push_back({Level::ok, "rows", account_words(account)});
       for (auto const& finding : recording.findings)
         lines.push_back({level_of(finding.grade), code_of(finding.kind), sentence_with_cure(finding)});
       for (auto const& warning : recording.warnings) lines.push_back({Level::warn, warning.topic, warning.text});

@@ -14,6 +14,7 @@
 #include "engine/data/motion.hpp"
 #include "engine/data/recording.hpp"
 #include "engine/data/recording_reader.hpp"
+#include "engine/data/row_account.hpp"
 #include "engine/effects/model_options.hpp"
 #include "engine/effects/regressor.hpp"
 #include "engine/job/job.hpp"
@@ -40,7 +41,8 @@ struct DataSet {
   RegressionData regression;
   std::vector<Excitation> excitation;  // per recording
   bool simulated = false;
-  std::vector<std::size_t> n_samples{};  // per recording, as read
+  std::vector<std::size_t> n_samples{};             // per recording, as read
+  std::vector<std::vector<RowAccount>> accounts{};  // per recording: of its joint, or of each of an arm
   // of an arm: `recordings` has one entry a file, with what was found in any joint; `excitation` one a joint of each,
   // and `regression` the rows where a joint moves one way
   RegressionData other_rows{};

@@ -59,7 +59,7 @@ bool is_called_a_table(std::filesystem::path const& path) {
   return std::find(endings.begin(), endings.end(), path.extension()) != endings.end();
 }
 
-// "CSV" for a table of numbers, "HDF5"; empty for what no reader takes
+// "CSV" or "JSON" for a table of numbers, "HDF5"; empty for what no reader takes
 std::string recording_format(std::filesystem::path const& path) {
   constexpr std::size_t enough_for_signatures = 4096;
   auto const first_bytes = read_first_bytes(path, enough_for_signatures);
@@ -69,7 +69,7 @@ std::string recording_format(std::filesystem::path const& path) {
     bool const is_compressed = first_bytes.starts_with("\x1f\x8b");
     try {  // any text may be a table, or a job with a mistake in it
       if (!is_compressed && read_table(path, {"recording", {}, {}}).columns.size() < 2) return {};
-      return "CSV";
+      return reader.name == "json" ? "JSON" : "CSV";
     } catch (Error const&) {  // a damaged table is a recording all the same
       return is_called_a_table(path) ? "CSV" : "";
     }
@@ -114,7 +114,7 @@ void refuse_no_recording(std::filesystem::path const& path) {
     Problem problem;
     problem.code = ExitCode::no_input;
     problem.what = fmt::format("no such file: {}", path.string());
-    problem.help = "name a recording: CSV, HDF5 or MATLAB (torquescope list readers)";
+    problem.help = "name a recording: CSV, JSON, HDF5 or MATLAB (torquescope list readers)";
     return problem;
   });
   if (!std::filesystem::is_regular_file(path, none)) return;  // the reader says so

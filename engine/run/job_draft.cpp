@@ -131,11 +131,11 @@ class JobDrafter {
   }
 
   void write_model() {
-    auto const& position = train_.columns.position;
+    auto const& motion = train_.motion();
     text_.section("[model]");
-    bool const by_unit = position.name.unit && position.name.unit->quantity != Quantity::counts;
+    bool const by_unit = motion.name.unit && motion.name.unit->quantity != Quantity::counts;
     text_.setting("joint", prismatic_ ? "\"prismatic\"" : "\"revolute\"",
-                  by_unit      ? fmt::format("guessed from the unit, {}", position.name.unit->word)
+                  by_unit      ? fmt::format("guessed from the unit, {}", motion.name.unit->word)
                   : prismatic_ ? "guessed: the torque column is a force"
                                : "assumed: no unit says so");
     auto list = terms();
@@ -178,7 +178,7 @@ bool is_line_to_edit(CheckLine const& fault, JobDraft const& draft) {
 
 // what `torquescope check` will say of the draft, said now
 void check_draft(JobDraft& draft, RecordingGuess const& train, std::filesystem::path const& job_file) {
-  if (!train.stamps || train.columns.position.column.empty() || train.columns.torque.column.empty())
+  if (!train.stamps || train.motion().column.empty() || train.columns.torque.column.empty())
     return does_not_run(draft, ExitCode::bad_job, what_to_edit);
   if (!train.recording) return does_not_run(draft, ExitCode::bad_data, train.refusal);
   try {
@@ -204,7 +204,8 @@ void list_guesses(JobDraft& draft, RecordingGuess const& train) {
   auto const& columns = train.columns;
   std::vector<std::string> channels;
   if (train.stamps) channels.push_back("time " + train.stamps->column);
-  if (!columns.position.column.empty()) channels.push_back("position " + columns.position.column);
+  if (!train.motion().column.empty())
+    channels.push_back((train.is_speed_alone ? "velocity " : "position ") + train.motion().column);
   if (!columns.torque.column.empty()) channels.push_back("torque " + columns.torque.column);
   bool const servo = train.torque == TorqueColumn::optional;
   if (servo ? reference_fits(columns) : reference_serves(columns))
@@ -225,9 +226,9 @@ RecordingGuess first_with_a_position(std::vector<std::filesystem::path> const& r
                                      TorqueColumn torque, ChosenColumns const& named, std::size_t& leading) {
   RecordingGuess first = guess_recording(recordings.front(), joint, torque, named);
   bool const is_refused = first.columns.joint > first.columns.joints;
-  if (!first.columns.position.column.empty() || is_refused) return first;
+  if (!first.motion().column.empty() || is_refused) return first;
   for (std::size_t k = 1; k < recordings.size(); ++k)
-    if (auto next = guess_recording(recordings[k], joint, torque, named); !next.columns.position.column.empty()) {
+    if (auto next = guess_recording(recordings[k], joint, torque, named); !next.motion().column.empty()) {
       leading = k;
       return next;
     }

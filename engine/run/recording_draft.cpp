@@ -116,6 +116,7 @@ class RecordingDraft {
 
   void write_position_unit() {
     auto const& position = train_.columns.position;
+    if (train_.is_speed_alone) return write_velocity_unit();
     if (position.column.empty()) return;
     if (position.counts) {
       text_.to_edit("position_per_unit", fmt::format("<{} per count>", position_unit()),
@@ -137,6 +138,20 @@ class RecordingDraft {
         fmt::format("EDIT if these are degrees: {:.4g} to {:.4g} are many turns", position.least, position.most));
     warn(fmt::format("position \"{}\" goes from {:.4g} to {:.4g}: taken as rad, though it may be degrees",
                      position.column, position.least, position.most));
+  }
+
+  void write_velocity_unit() {
+    auto const& velocity = train_.columns.velocity;
+    if (velocity.name.unit && tells_si(*velocity.name.unit)) {
+      if (train_.velocity_per_unit != 1.0)
+        text_.setting("velocity_per_unit", toml_number(train_.velocity_per_unit),
+                      fmt::format("the name says {}", velocity.name.unit->word));
+      return;
+    }
+    text_.to_edit("velocity_per_unit", "0.104719755",
+                  fmt::format("EDIT if it is rpm: taken as {}/s, {:.4g} to {:.4g}", position_unit(), velocity.least,
+                              velocity.most));
+    warn(fmt::format("velocity \"{}\" has no unit: taken as {}/s", velocity.column, position_unit()));
   }
 
   void write_torque_unit() {
@@ -174,7 +189,11 @@ class RecordingDraft {
     if (!train_.looks.empty())
       text_.comment("torquescope init FILE --position COLUMN --torque COLUMN drafts it with the columns you name.");
     if (train_.stamps) text_.setting("time", toml_text(train_.stamps->column), time_comment());
-    write_channel("position", train_.columns.position, position_comment());
+    if (train_.is_speed_alone)
+      write_channel("velocity", train_.columns.velocity,
+                    "no position: its integral serves, from zero; where the joint stood stays unknown");
+    else
+      write_channel("position", train_.columns.position, position_comment());
     if (has_torque()) write_channel("torque", train_.columns.torque, torque_comment());
     if (!has_torque() || reference_serves(train_.columns))
       write_channel("reference", reference_fits(train_.columns) ? train_.columns.reference : ChannelGuess{},
@@ -182,9 +201,26 @@ class RecordingDraft {
     if (auto const why = unused_reference_words(train_); !why.empty()) text_.comment(why);
     if (auto const& enabled = train_.columns.enabled; !enabled.column.empty() && !(has_torque() && enabled.is_constant))
       text_.setting("enabled", toml_text(enabled.column), "0 and 1, and the name: whether the drive is on");
-    if (auto const& velocity = train_.columns.velocity; !velocity.column.empty())
+    if (auto const& velocity = train_.columns.velocity; !train_.is_speed_alone && !velocity.column.empty())
       text_.comment(
           fmt::format("\"{}\" is not used: the derivative of the position serves, and lags nothing", velocity.column));
+    write_clocks();
+  }
+
+  // of the channels that were written
+  void write_clocks() {
+    std::vector<std::pair<std::string, std::string>> written;
+    for (auto const& [channel, clock] : train_.clocks) {
+      bool const is_left_out = (channel == "torque" && !has_torque()) ||
+                               (channel == "reference" && has_torque() && !reference_serves(train_.columns)) ||
+                               (channel == "enabled" && has_torque() && train_.columns.enabled.is_constant);
+      if (!is_left_out) written.emplace_back(channel, clock);
+    }
+    if (written.empty()) return;
+    text_.section("[recording.clocks]");
+    text_.comment("These channels have time columns of their own; they are put on the position's clock.");
+    for (auto const& [channel, clock] : written)
+      text_.setting(channel, toml_text(clock), "the time column before it in the file");
   }
 
   std::string time_comment() const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/data/clock_blocks.hpp"
 #include "engine/data/recording_reader.hpp"
 #include "engine/health/make_recording.hpp"
 
@@ -17,10 +18,14 @@ namespace {
 RecordingOptions options_of(RecordingGuess const& guess) {
   RecordingOptions options;
   bool const has_torque = guess.torque == TorqueColumn::required;
-  options.columns = {{"time", guess.stamps->column}, {"position", guess.columns.position.column}};
+  options.columns = {{"time", guess.stamps->column},
+                     {guess.is_speed_alone ? "velocity" : "position", guess.motion().column}};
   if (has_torque) options.columns["torque"] = guess.columns.torque.column;
   if (has_torque ? reference_serves(guess.columns) : reference_fits(guess.columns))
     options.columns["reference"] = guess.columns.reference.column;
+  options.clocks = guess.clocks;
+  std::erase_if(options.clocks, [&](auto const& one) { return !options.columns.contains(one.first); });
+  if (guess.is_speed_alone) options.velocity_per_unit = guess.velocity_per_unit;
   options.time_per_unit = guess.stamps->per_unit;
   options.position_per_unit = guess.position_per_unit;
   options.torque_per_unit = {guess.torque_per_unit};
@@ -35,6 +40,7 @@ Section written(RecordingOptions const& options) {
   };
   add("time_per_unit", options.time_per_unit);
   add("position_per_unit", options.position_per_unit);
+  if (options.velocity_per_unit != 0.0) add("velocity_per_unit", options.velocity_per_unit);
   add("torque_per_unit", options.torque_factor());
   return section;
 }
@@ -52,7 +58,7 @@ void take_out_no_command(RecordingGuess& guess) {
 
 void read_as_guessed(RecordingGuess& guess, RawTable const& table) {
   bool const needs_torque = guess.torque == TorqueColumn::required;
-  if (guess.columns.position.column.empty() || (needs_torque && guess.columns.torque.column.empty())) {
+  if (guess.motion().column.empty() || (needs_torque && guess.columns.torque.column.empty())) {
     guess.refusal =
         needs_torque ? "no column is known to be the position, or the torque" : "no column is known to be the position";
     return;
@@ -74,6 +80,8 @@ void read_as_guessed(RecordingGuess& guess, RawTable const& table) {
 void take_units(RecordingGuess& guess) {
   auto const& position = guess.columns.position;
   if (position.name.unit && tells_si(*position.name.unit)) guess.position_per_unit = position.name.unit->si;
+  auto const& velocity = guess.columns.velocity;
+  if (velocity.name.unit && tells_si(*velocity.name.unit)) guess.velocity_per_unit = velocity.name.unit->si;
   auto const& torque = guess.columns.torque;
   if (torque_unit_is_known(torque) && torque.name.unit) guess.torque_per_unit = torque.name.unit->si;
 }
@@ -81,10 +89,11 @@ void take_units(RecordingGuess& guess) {
 }  // namespace
 
 bool is_prismatic(ColumnGuess const& columns) {
-  auto const& position = columns.position.name.unit;
+  auto const& motion = columns.position.column.empty() ? columns.velocity.name.unit : columns.position.name.unit;
   auto const& torque = columns.torque.name.unit;
-  if (position && position->quantity == Quantity::length) return true;
-  bool const turns = position && position->quantity == Quantity::angle;
+  auto const is = [&](Quantity quantity) { return motion && motion->quantity == quantity; };
+  if (is(Quantity::length) || is(Quantity::speed)) return true;
+  bool const turns = is(Quantity::angle) || is(Quantity::angular_speed);
   return !turns && torque && torque->quantity == Quantity::force;
 }
 
@@ -124,6 +133,39 @@ void check_named(RawTable const& table, ChosenColumns const& named) {
     });
 }
 
+namespace {
+
+// of a joint with a torque: a command's error needs the position itself
+void take_speed_alone(RecordingGuess& guess) {
+  auto const& velocity = guess.columns.velocity;
+  bool const is_derivative = std::any_of(guess.looks.begin(), guess.looks.end(), [&](ColumnLook const& look) {
+    return look.column == velocity.column && look.look == Look::derivative;
+  });
+  guess.is_speed_alone = guess.torque == TorqueColumn::required && guess.columns.position.column.empty() &&
+                         !velocity.column.empty() && !velocity.is_constant && !is_derivative;
+  if (!guess.is_speed_alone) return;
+  guess.columns.reference = {};
+  if (!guess.columns.torque.column.empty()) guess.looks.clear();
+}
+
+// the time column of the position's block, and of channels in other blocks
+void guess_clocks(RecordingGuess& guess, RawTable const& table) {
+  auto const of_columns = clocks_of_columns(table);
+  auto const own = of_columns.find(guess.motion().column);
+  std::string named = guess.named.contains("time") ? guess.named.at("time") : "";
+  if (named.empty() && own != of_columns.end()) named = own->second;
+  guess.stamps = guess_stamps(table, named);
+  if (!guess.stamps || own == of_columns.end() || own->second != guess.stamps->column) return;
+  for (auto const& [channel, column] :
+       {std::pair{"torque", guess.columns.torque.column}, std::pair{"reference", guess.columns.reference.column},
+        std::pair{"enabled", guess.columns.enabled.column}}) {
+    auto const at = of_columns.find(column);
+    if (at != of_columns.end() && !is_same_clock(table, at->second, own->second)) guess.clocks[channel] = at->second;
+  }
+}
+
+}  // namespace
+
 RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint, TorqueColumn torque,
                                ChosenColumns const& named) {
   RecordingGuess guess;
@@ -134,9 +176,10 @@ RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t jo
   check_named(table, named);
   guess.named = named;
   guess.columns = guess_columns(table, joint, torque, named);
-  guess.stamps = guess_stamps(table, named.contains("time") ? named.at("time") : "");
   bool const lacks_torque = torque == TorqueColumn::required && guess.columns.torque.column.empty();
   if (guess.columns.position.column.empty() || lacks_torque) guess.looks = column_looks(table);
+  take_speed_alone(guess);
+  guess_clocks(guess, table);
   guess.names = table.names;
   guess.unusable = table.unusable;
   take_units(guess);
@@ -155,11 +198,23 @@ RecordingGuess guess_like(std::filesystem::path const& file, RecordingGuess cons
   guess.unusable = table.unusable;
   take_units(guess);
   bool const has_torque = first.torque == TorqueColumn::required;
-  for (auto const* channel : {&first.columns.position, has_torque ? &first.columns.torque : &first.columns.reference})
+  guess.is_speed_alone = first.is_speed_alone;
+  guess.clocks = first.clocks;
+  for (auto const* channel : {&first.motion(), has_torque ? &first.columns.torque : &first.columns.reference})
     if (std::find(table.names.begin(), table.names.end(), channel->column) == table.names.end())
       guess.refusal = "no column \"" + channel->column + "\"";
   if (!guess.refusal.empty()) return guess;
-  guess.stamps = guess_stamps(table, first.named.contains("time") ? first.named.at("time") : "");
+  std::string named = first.named.contains("time") ? first.named.at("time") : "";
+  if (named.empty() && !first.clocks.empty() && first.stamps) named = first.stamps->column;
+  bool const has_clocks = std::all_of(first.clocks.begin(), first.clocks.end(), [&](auto const& one) {
+    return std::find(table.names.begin(), table.names.end(), one.second) != table.names.end();
+  });
+  if (!has_clocks ||
+      (!named.empty() && std::find(table.names.begin(), table.names.end(), named) == table.names.end())) {
+    guess.refusal = "its time columns have other names";
+    return guess;
+  }
+  guess.stamps = guess_stamps(table, named);
   read_as_guessed(guess, table);
   return guess;
 }

@@ -5,6 +5,7 @@
 // Threads    free functions
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -22,8 +23,10 @@ struct RecordingGuess {
   std::size_t rows = 0;
   ColumnGuess columns{};
   std::optional<StampGuess> stamps{};
-  std::vector<std::string> names{};                       // all columns of the file
-  std::vector<UnusableColumn> unusable{};                 // of them, those that hold text
+  std::map<std::string, std::string> clocks{};  // of channels whose time column is not the position's
+  bool is_speed_alone = false;                  // no position, and no column whose derivative the velocity would be
+  std::vector<std::string> names{};             // all columns of the file
+  std::vector<UnusableColumn> unusable{};       // of them, those that hold text
   double position_per_unit = 1.0, torque_per_unit = 1.0;  // 1 where the unit does not tell
   std::optional<Recording> recording{};                   // in SI units as far as they are known
   std::optional<Finding> no_command{};                    // of a reference that was taken out of `columns`
@@ -31,6 +34,10 @@ struct RecordingGuess {
   std::vector<ColumnLook> looks{};                        // where the position or the torque is not known
   std::string refusal{};                                  // why there is none
   double jitter = 0.0;                                    // of the stamps
+  double velocity_per_unit = 1.0;                         // of a speed alone
+
+  // the column that says how the joint moves: the position, or a speed alone
+  ChannelGuess const& motion() const { return is_speed_alone ? columns.velocity : columns.position; }
 };
 
 // joint, torque, named: as guess_columns(); Error 64 where there is no column of a name
@@ -39,6 +46,7 @@ RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t jo
 // another recording with the columns of the first
 RecordingGuess guess_like(std::filesystem::path const& file, RecordingGuess const& first);
 
+// by the units of position, velocity and torque
 bool is_prismatic(ColumnGuess const& columns);
 bool torque_unit_is_known(ChannelGuess const& torque);
 // the reference counts when its unit is the position's; to `serve` it has to change

@@ -19,8 +19,8 @@ struct HostileReader {
   bool foreign = false;  // a library of others parses it, which is known to crash: the program reads it in a child
 };
 
-extern HostileReader const hostile_job, hostile_csv, hostile_hdf5, hostile_mat5, hostile_npz, hostile_ros_echo,
-    hostile_segment;
+extern HostileReader const hostile_job, hostile_csv, hostile_hdf5, hostile_json, hostile_mat5, hostile_npz,
+    hostile_ros_echo, hostile_segment;
 
 // the recording reader of that name
 void read_recording(char const* reader, std::string_view bytes);

@@ -6,6 +6,7 @@ Use: MAKE_SEGMENT=build/release/bin/make_segment /usr/bin/python3 tests/fuzz/see
 
 import glob
 import gzip
+import json
 import os
 import shutil
 import subprocess
@@ -85,6 +86,16 @@ def hdf5s(folder):
             file["joints/text"], file["joints/deep"] = "no number", h5py.SoftLink("/t_s")
             file["joints/up"], file["elsewhere"] = file["/"], h5py.ExternalLink("other.h5", "/x")
     return ()
+
+
+def jsons(folder):
+    records = [{"t": 0.01 * k, "joint": {"q": [0.1 * k, 1.0], "on": k % 2 == 0}, "note": "a"} for k in range(9)]
+    columns = {"meta": {"robot": "r"}, "t": [0.01 * k for k in range(9)], "q": [[k, 2 * k] for k in range(9)]}
+    texts = {"records": json.dumps(records), "lines": "\n".join(json.dumps(one) for one in records),
+             "columns": json.dumps(columns, indent=1), "not_numbers": '[{"t": NaN, "q": -Infinity}, {"t": null}]'}
+    for name, text in texts.items():
+        with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
+            file.write(text)
 
 
 def npzs(folder):
@@ -175,7 +186,8 @@ def lying_segments(home):
     return folder
 
 
-MAKERS = {"job": jobs, "csv": csvs, "hdf5": hdf5s, "mat5": mat5s, "npz": npzs, "ros_echo": echoes, "segment": segments}
+MAKERS = {"job": jobs, "csv": csvs, "hdf5": hdf5s, "json": jsons,
+          "mat5": mat5s, "npz": npzs, "ros_echo": echoes, "segment": segments}
 
 
 def make(home):

@@ -29,8 +29,8 @@ namespace {
 constexpr std::uint64_t seed = 20140608;
 
 std::map<std::string, HostileReader const*> const readers{
-    {"job", &hostile_job}, {"csv", &hostile_csv},           {"hdf5", &hostile_hdf5},      {"mat5", &hostile_mat5},
-    {"npz", &hostile_npz}, {"ros_echo", &hostile_ros_echo}, {"segment", &hostile_segment}};
+    {"job", &hostile_job},   {"csv", &hostile_csv}, {"hdf5", &hostile_hdf5},         {"json", &hostile_json},
+    {"mat5", &hostile_mat5}, {"npz", &hostile_npz}, {"ros_echo", &hostile_ros_echo}, {"segment", &hostile_segment}};
 
 std::vector<std::string> contents_of(std::filesystem::path const& folder) {
   std::vector<std::filesystem::path> names;

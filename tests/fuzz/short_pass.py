@@ -20,7 +20,8 @@ import program  # noqa: E402
 import seeds  # noqa: E402
 import simulated_job  # noqa: E402
 
-COUNTS = {"job": 10000, "csv": 4000, "hdf5": 300, "mat5": 150, "npz": 4000, "ros_echo": 3000, "segment": 300}
+COUNTS = {"job": 10000, "csv": 4000, "hdf5": 300, "json": 4000,
+          "mat5": 150, "npz": 4000, "ros_echo": 3000, "segment": 300}
 
 
 class ShortPass(unittest.TestCase):

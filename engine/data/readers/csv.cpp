@@ -3,6 +3,7 @@
 // Names      the line right above the rows (table_layout.hpp), a preamble and a line of units apart; else the first
 //            line that is no comment, or the comment right above numbers (numpy.savetxt)
 // Rows       as many cells as names, and one trailing separator; a last line that was cut short is left out
+//            names that repeat are numbered: "Time#1", "Time#2" (repeated_names.hpp)
 // Lists      a column of lists in cells is spread into columns "NAME[0]", "NAME[1]", ... (list_cells.hpp)
 // Cells      text_column.hpp; a column with text in some cell is unusable, a line of text alone is an error
 // Bounds     a line 1 MiB, columns 4096; of gzip see gunzip.hpp
@@ -21,6 +22,7 @@
 #include "engine/data/gunzip.hpp"
 #include "engine/data/list_cells.hpp"
 #include "engine/data/recording_reader.hpp"
+#include "engine/data/repeated_names.hpp"
 #include "engine/data/table_layout.hpp"
 #include "engine/data/text_column.hpp"
 #include "engine/data/text_encoding.hpp"
@@ -102,6 +104,7 @@ class CsvText {
     });
     table_.names = names_in_comment ? comment_names() : names_of(cells_);
     if (layout_ && layout_->groups_line > 0) take_groups();
+    table_.names = with_numbers_of_repeats(std::move(table_.names));
     check_number_of_columns();
     n_cells_ = table_.names.size();
     columns_.resize(table_.names.size());
@@ -259,7 +262,7 @@ class CsvText {
   }
 
   Problem row_of_text() const {
-    if (names_of(cells_) == table_.names)
+    if (with_numbers_of_repeats(names_of(cells_)) == table_.names)
       return problem(fmt::format("the header is repeated in line {}", lines_.line_number()),
                      fmt::format("two recordings in one file? split it at line {}", lines_.line_number()));
     return problem(fmt::format("\"{}\" in line {} is not a number", shown(cells_.front()), lines_.line_number()),

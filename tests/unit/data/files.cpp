@@ -86,7 +86,7 @@ TEST(EveryReader, HasANameAndAMeaningOfItsOwn) {
     EXPECT_TRUE(names.insert(reader.name).second);
     EXPECT_FALSE(reader.meaning.empty());
   }
-  EXPECT_EQ(names, (std::set<std::string>{"csv", "hdf5", "mat5", "npz", "ros_echo"}));
+  EXPECT_EQ(names, (std::set<std::string>{"csv", "hdf5", "json", "mat5", "npz", "ros_echo"}));
 }
 
 }  // namespace files_test
