@@ -110,7 +110,6 @@ void add_describe(CLI::App& app, ChosenCommand& chosen) {
   command->footer(
       "  torquescope describe fade\n"
       "  torquescope describe recording --json - | jq -r .entries[].options[].key\n"
-      "  torquescope describe jobs/robots/ur10e.toml\n"
       "  torquescope describe go2.urdf --tip FL_foot\n");
   command->add_option("NAME", *name, "effect, optimiser, reader, loss, estimator, job section, or a robot file")
       ->required()
