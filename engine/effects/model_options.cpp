@@ -11,8 +11,13 @@ OptionTable<ModelOptions> const& ModelOptions::table() {
        {"velocity_deadband", &ModelOptions::velocity_deadband, "rad/s or m/s", 0.0, 1e3,
         "dry friction is zero at and below this speed; 0: only at rest"},
        {"robot", &ModelOptions::robot,
-        "robot file of an arm (robots/panda.toml, a URDF), relative to the job file; then joint and terms are not "
-        "written"},
+        "robot file of an arm (robots/panda.toml, a URDF, xacro or MJCF), relative to the job file; then joint and "
+        "terms "
+        "are not written"},
+       {"root", &ModelOptions::root,
+        "of an arm whose file has links: the link that stands still, with all before it; of a legged robot its body"},
+       {"tip", &ModelOptions::tip,
+        "of an arm whose file has links: the link where it ends, where the file has branches or a gripper"},
        {"friction", &ModelOptions::friction,
         "of an arm: effects that every joint has beside the rigid arm, e.g. viscous, coulomb, offset"},
        {"drive_inertia", &ModelOptions::drive_inertia,

@@ -15,6 +15,7 @@ struct ModelOptions {
   double velocity_deadband = 0.0;
   // of an arm
   std::string robot{};                  // its file, relative to the job's; "": the job is about one joint
+  std::string root{}, tip{};            // links of that file between which the arm is; "": all of it
   std::vector<std::string> friction{};  // terms of every joint beside the rigid arm
   bool drive_inertia = true;            // rotors are parameters of their own
   std::vector<double> gravity{};        // m/s^2 in the base frame of an arm; empty: as its file says

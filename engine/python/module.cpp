@@ -93,6 +93,7 @@ nb::dict robot_facts(std::filesystem::path const& path) {
   facts["mass"] = robot.mass;
   facts["joints"] = joints;
   facts["parameters"] = parameters;
+  facts["warnings"] = robot.warnings;
   facts["remarks"] = robot.remarks;
   return facts;
 }

@@ -1,5 +1,7 @@
 #include "engine/robot/right_angles.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -30,6 +32,16 @@ Eigen::Matrix3d nearest_right_angles(Eigen::Matrix3d const& rotation) {
   turned(r1, c2) = -sign * s;
   turned(r2, c2) = sign * c;
   return turned;
+}
+
+Eigen::Matrix3d right_or_as_written(Eigen::Matrix3d const& rotation, std::string const& whose,
+                                    std::vector<std::string>& remarks) {
+  Eigen::Matrix3d const right = nearest_right_angles(rotation);
+  double const change = (rotation - right).cwiseAbs().maxCoeff();
+  if (change > rounding_of_an_angle)
+    remarks.push_back(
+        fmt::format("the angles of {} are taken as right ones, {:.1e} rad from what is written", whose, change));
+  return right;
 }
 
 }  // namespace torquescope

@@ -5,6 +5,8 @@
 // Threads    pure functions
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 namespace torquescope {
 
@@ -16,5 +18,9 @@ double nearest_right_angle(double angle);
 
 // the same for a rotation matrix: an axis of one frame along one of the other, and the angle about it
 Eigen::Matrix3d nearest_right_angles(Eigen::Matrix3d const& rotation);
+
+// the same with a remark where it is worth one; whose: "joint \"elbow\""
+Eigen::Matrix3d right_or_as_written(Eigen::Matrix3d const& rotation, std::string const& whose,
+                                    std::vector<std::string>& remarks);
 
 }  // namespace torquescope

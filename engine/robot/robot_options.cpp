@@ -63,7 +63,10 @@ OptionTable<RobotOptions> const& RobotOptions::table() {
         "modified_dh: Rx(alpha) Tx(a) Rz(q + offset) Tz(d); standard_dh: Rz(q + offset) Tz(d) Tx(a) Rx(alpha)"},
        {"gravity", &RobotOptions::gravity, "m/s^2", -30.0, 30.0, "gravity in the base frame: [x, y, z]"},
        {"flange_m", &RobotOptions::flange_m, "m", -100.0, 100.0, "origin of the tool in the last frame: [x, y, z]"},
-       {"urdf", &RobotOptions::urdf, "file with frames and inertias; [[joint]] then adds drives by name"},
+       {"urdf", &RobotOptions::urdf,
+        "URDF, xacro or MJCF with frames and inertias; [[joint]] then adds drives by name"},
+       {"root", &RobotOptions::root,
+        "link of the urdf that stands still, where its base floats; all before it is held"},
        {"tip", &RobotOptions::tip, "link of the urdf where the arm ends, where it has grippers or branches"}});
   return table;
 }

@@ -19,7 +19,8 @@ struct RobotOptions {
   std::string convention = "modified_dh";
   std::vector<double> gravity{0.0, 0.0, -9.81};  // m/s^2 in the base frame
   std::vector<double> flange_m{0.0, 0.0, 0.0};
-  std::string urdf{};  // frames and inertias from there
+  std::string urdf{};  // URDF, xacro or MJCF: frames and inertias from there
+  std::string root{};  // its link that stands still
   std::string tip{};   // its link where the arm ends
 
   static OptionTable<RobotOptions> const& table();

@@ -19,18 +19,33 @@ std::vector<RobotFormat> const& robot_formats() {
   return choices;
 }
 
-SerialChain read_robot(std::filesystem::path const& path) {
+namespace {
+
+enum class Formats { all, with_links };
+
+SerialChain read_one_of(Formats formats, std::filesystem::path const& path, RobotPart const& part) {
   auto const text = RobotText::read(path);
-  for (auto const& format : robot_formats())
-    if (format.accepts(text)) return format.read(text);
   Problem problem;
+  for (auto const& format : robot_formats()) {
+    if (formats == Formats::with_links && !format.has_links) continue;
+    if (format.accepts(text)) return format.read(text, part);
+    problem.notes.push_back(fmt::format("{}: {}", format.name, format.meaning));
+  }
   problem.code = ExitCode::bad_data;
   problem.what = fmt::format("{} describes no robot", text.file);
   problem.place.file = text.file;
-  for (auto const& format : robot_formats())
-    problem.notes.push_back(fmt::format("{}: {}", format.name, format.meaning));
   problem.help = "write its joints in one of these formats; jobs/robots has examples";
   throw Error(std::move(problem));
+}
+
+}  // namespace
+
+SerialChain read_robot(std::filesystem::path const& path, RobotPart const& part) {
+  return read_one_of(Formats::all, path, part);
+}
+
+SerialChain read_linked_robot(std::filesystem::path const& path, RobotPart const& part) {
+  return read_one_of(Formats::with_links, path, part);
 }
 
 }  // namespace torquescope

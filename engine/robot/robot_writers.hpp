@@ -3,7 +3,7 @@
 //
 // Accuracy   numbers have all their digits: the arm that is read again has the torques of the one that was written
 // Lost       TOML: where frame 0 stands. URDF: gears, drive inertias, encoders, accelerations, the size of gravity.
-//            MJCF: gears, encoders, speeds and accelerations. Each file says so
+//            MJCF: gears, encoders, speeds, accelerations and torques. Each file says so
 // Threads    pure functions
 
 #include <string>

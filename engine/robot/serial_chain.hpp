@@ -45,6 +45,7 @@ struct SerialChain {
   FramePose base{};                          // frame 0 seen from the file's base frame
   FramePose flange{};                        // the tool's frame seen from the last link's
   std::vector<std::string> remarks{};        // sentences: what the reader did on its own
+  std::vector<std::string> warnings{};       // the same of what may be wrong, with file and line
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(joints.size()); }
   bool has_inertias() const { return !links.empty(); }

@@ -10,7 +10,9 @@
 #include <sstream>
 
 #include "engine/robot/right_angles.hpp"
-#include "engine/robot/xml_depth.hpp"
+#include "engine/robot/urdf_limits.hpp"
+#include "engine/robot/urdf_words.hpp"
+#include "engine/robot/xml_words.hpp"
 
 namespace torquescope {
 
@@ -47,15 +49,32 @@ Eigen::Matrix3d matrix_of(urdf::Rotation const& q) {
   return matrix;
 }
 
+XmlElement const* urdf_element(XmlElement const& robot, std::string const& element, std::string const& name) {
+  for (auto const& one : robot.children)
+    if (auto const* const called = one.find("name"); one.name == element && called != nullptr && *called == name)
+      return &one;
+  return nullptr;
+}
+
+// where <joint name="elbow"> or <link name="forearm"> begins, or where <axis of it does
+SourcePlace urdf_place(XmlElement const& robot, std::string const& element, std::string const& name,
+                       std::string const& inner = "") {
+  auto const* const found = urdf_element(robot, element, name);
+  if (found == nullptr) return robot.text->whole();
+  auto const* const within = inner.empty() ? nullptr : found->child(inner);
+  return within == nullptr ? found->place() : within->place();
+}
+
 // the part of a message in [brackets] or (parentheses) is a name or a value: its place
-SourcePlace place_of_message(RobotText const& text, std::string const& message) {
+SourcePlace place_of_message(XmlElement const& xml, std::string const& message) {
+  auto const& text = *xml.text;
   std::vector<std::string> pieces;
   for (std::size_t open = message.find_first_of("[("); open != std::string::npos;
        open = message.find_first_of("[(", open + 1))
     pieces.push_back(message.substr(open + 1, message.find_first_of("])", open) - open - 1));
   for (auto const& piece : pieces)
     for (auto const* element : {"joint", "link", "material"})
-      if (auto place = urdf_place(text, element, piece); place.line > 0) return place;
+      if (auto place = urdf_place(xml, element, piece); place.line > 0) return place;
   for (auto const& piece : pieces)
     for (char const* before : {"\"", "'", " "})
       if (auto const at = text.text.find(before + piece); !piece.empty() && at != std::string::npos)
@@ -81,7 +100,7 @@ class ParsedModel {
   urdf::ModelInterfaceSharedPtr model_;
 };
 
-ParsedModel parse(RobotText const& text) {
+ParsedModel parse(RobotText const& text, XmlElement const& xml) {
   Listener listener;
   auto model = urdf::parseURDF(text.text);
   validate(model != nullptr && listener.inertial_error.empty(), [&] {
@@ -89,7 +108,7 @@ ParsedModel parse(RobotText const& text) {
     problem.code = ExitCode::bad_data;
     std::string const& said = model == nullptr ? listener.first_error : listener.inertial_error;
     problem.what = "this is no URDF" + (said.empty() ? "" : ": " + said);
-    problem.place = place_of_message(text, said);
+    problem.place = place_of_message(xml, said);
     problem.help = "mend it there; check_urdf (Debian: liburdfdom-tools) reads it the same way";
     return problem;
   });
@@ -98,15 +117,16 @@ ParsedModel parse(RobotText const& text) {
 
 class TreeReader {
  public:
-  TreeReader(RobotText const& text, urdf::ModelInterface const& model) : text_(text), model_(model) {}
+  TreeReader(XmlElement const& xml, urdf::ModelInterface const& model) : xml_(xml), model_(model) {}
 
-  UrdfTree read() {
+  RobotTree read() {
     tree_.name = model_.getName();
     tree_.root = model_.getRoot()->name;
     for (auto const& [name, link] : model_.links_)
       if (link->inertial) read_inertia(*link);
     for (auto const& [name, joint] : model_.joints_) read_joint(*joint);
     refuse_loops();
+    warn_of_missing_leaders();
     if (!problems_.empty()) throw Error(std::move(problems_));
     return std::move(tree_);
   }
@@ -123,7 +143,7 @@ class TreeReader {
     FramePose const pose{matrix_of(given.origin.rotation), vector_of(given.origin.position)};
     auto const body = LinkInertia::from_centre(given.mass, Eigen::Vector3d::Zero(), tensor);
     if (!(given.mass >= 0.0) || !tensor.allFinite()) {
-      refuse(urdf_place(text_, "link", link.name, "inertial"),
+      refuse(urdf_place(xml_, "link", link.name, "inertial"),
              fmt::format("link \"{}\" has mass {} and an inertia that is none", link.name, given.mass),
              "write its mass in kg and its inertia in kg m^2, or no <inertial> at all");
       return;
@@ -135,23 +155,20 @@ class TreeReader {
   }
 
   void read_joint(urdf::Joint const& given) {
-    UrdfJoint read;
+    TreeJoint read;
     read.joint.name = given.name;
     read.parent = given.parent_link_name;
     read.child = given.child_link_name;
-    read.origin = origin_of(given);
-    read.is_fixed = given.type == urdf::Joint::FIXED;
-    if (given.mimic) read.mimics = given.mimic->joint_name;
-    bool const moves = given.type == urdf::Joint::REVOLUTE || given.type == urdf::Joint::CONTINUOUS ||
-                       given.type == urdf::Joint::PRISMATIC;
-    if (!moves && !read.is_fixed) {
-      refuse(urdf_place(text_, "joint", given.name), fmt::format("joint \"{}\" floats or is planar", given.name),
-             "a serial arm has revolute, continuous, prismatic and fixed joints: make it fixed");
-      return;
+    read.origin = origin_of(given, read.remarks);
+    read.place = urdf_place(xml_, "joint", given.name);
+    read.motion = motion_of(given);
+    if (given.mimic) {
+      read.mimics = given.mimic->joint_name;
+      read.place = urdf_place(xml_, "joint", given.name, "mimic");
     }
-    if (moves) read_motion(given, read);
+    if (read.motion == JointMotion::moves) read_motion(given, read);
     if (tree_.joint_to.contains(read.child)) {
-      refuse(urdf_place(text_, "joint", given.name),
+      refuse(urdf_place(xml_, "joint", given.name),
              fmt::format("link \"{}\" hangs on two joints, \"{}\" and \"{}\": a loop", read.child,
                          tree_.joint_to[read.child].joint.name, given.name),
              "a serial arm has no loops: take one of the two joints out");
@@ -161,15 +178,27 @@ class TreeReader {
     tree_.joint_to[read.child] = std::move(read);
   }
 
+  static JointMotion motion_of(urdf::Joint const& given) {
+    switch (given.type) {
+      case urdf::Joint::FIXED:
+        return JointMotion::fixed;
+      case urdf::Joint::REVOLUTE:
+      case urdf::Joint::CONTINUOUS:
+      case urdf::Joint::PRISMATIC:
+        return JointMotion::moves;
+      default:
+        return JointMotion::floats;
+    }
+  }
+
   // urdfdom has turned them into a rotation: the text itself tells degrees
   void refuse_degrees(urdf::Joint const& given) {
-    auto const place = urdf_place(text_, "joint", given.name, "origin");
-    if (place.line == 0) return;
-    auto const element =
-        place.line_text.substr(static_cast<std::size_t>(place.column - 1), static_cast<std::size_t>(place.length));
-    auto const at = element.find("rpy=");
-    if (at == std::string::npos) return;
-    std::istringstream numbers(element.substr(std::min(at + 5, element.size())));
+    auto const* const joint = urdf_element(xml_, "joint", given.name);
+    auto const* const origin = joint == nullptr ? nullptr : joint->child("origin");
+    auto const* const rpy = origin == nullptr ? nullptr : origin->find("rpy");
+    if (rpy == nullptr) return;
+    SourcePlace const place = origin->place_of("rpy");
+    std::istringstream numbers(*rpy);
     for (double angle = 0.0; numbers >> angle;) {
       if (std::abs(angle) <= 2.0 * std::numbers::pi + unit_tolerance) continue;
       refuse(place, fmt::format("rpy of joint \"{}\" has an angle of {}: is it in degrees?", given.name, angle),
@@ -178,49 +207,58 @@ class TreeReader {
     }
   }
 
-  FramePose origin_of(urdf::Joint const& given) {
+  FramePose origin_of(urdf::Joint const& given, std::vector<std::string>& remarks) {
     auto const at = vector_of(given.parent_to_joint_origin_transform.position);
     if (double const farthest = at.cwiseAbs().maxCoeff(); !(farthest <= farthest_origin))
-      refuse(urdf_place(text_, "joint", given.name, "origin"),
+      refuse(urdf_place(xml_, "joint", given.name, "origin"),
              fmt::format("joint \"{}\" is {:.4g} m from its parent: is it in millimetres?", given.name, farthest),
              fmt::format("write metres: {:.4g} mm are {:.4g} m", farthest, 1e-3 * farthest));
     refuse_degrees(given);
     auto const& origin = given.parent_to_joint_origin_transform;
-    Eigen::Matrix3d const written = matrix_of(origin.rotation), right = nearest_right_angles(written);
-    if ((written - right).cwiseAbs().maxCoeff() > rounding_of_an_angle)
-      tree_.remarks.push_back(
-          fmt::format("the angles of joint \"{}\" are taken as right ones, {:.1e} rad from what is written", given.name,
-                      (written - right).cwiseAbs().maxCoeff()));
-    return {right, vector_of(origin.position)};
+    return {right_or_as_written(matrix_of(origin.rotation), fmt::format("joint \"{}\"", given.name), remarks),
+            vector_of(origin.position)};
   }
 
-  void read_motion(urdf::Joint const& given, UrdfJoint& read) {
+  void read_motion(urdf::Joint const& given, TreeJoint& read) {
     auto& joint = read.joint;
     joint.kind = given.type == urdf::Joint::PRISMATIC ? JointKind::prismatic : JointKind::revolute;
     read.axis = vector_of(given.axis);
     double const length = read.axis.norm();
-    if (!(std::abs(length - 1.0) <= unit_tolerance)) {
-      Eigen::Vector3d const unit = read.axis / length;
-      refuse(urdf_place(text_, "joint", given.name, "axis"),
-             fmt::format("the axis of joint \"{}\" has length {:.4g}, not 1", given.name, length),
-             length > 0.0 ? fmt::format("write <axis xyz=\"{:.10g} {:.10g} {:.10g}\"/>", unit.x(), unit.y(), unit.z())
-                          : "write the direction of the axis, for example <axis xyz=\"0 0 1\"/>");
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      refuse(urdf_place(xml_, "joint", given.name, "axis"),
+             fmt::format("the axis of joint \"{}\" has length {:.4g}", given.name, length),
+             "write the direction of the axis, for example <axis xyz=\"0 0 1\"/>");
       return;
     }
+    if (std::abs(length - 1.0) > unit_tolerance)
+      read.remarks.push_back(
+          fmt::format("{}: the axis of joint \"{}\" has length {:.4g}; its direction is taken, as ROS does",
+                      place_text(urdf_place(xml_, "joint", given.name, "axis")), given.name, length));
     read.axis /= length;
+    if (given.dynamics) {
+      if (given.dynamics->damping != 0.0) read.laws.push_back(fmt::format("damping {:g}", given.dynamics->damping));
+      if (given.dynamics->friction != 0.0) read.laws.push_back(fmt::format("friction {:g}", given.dynamics->friction));
+    }
     if (!given.limits) return;
     bool const bounded = given.type != urdf::Joint::CONTINUOUS;
-    if (bounded) {
-      joint.lower = given.limits->lower;
-      joint.upper = given.limits->upper;
-    }
-    if (given.limits->velocity > 0.0) joint.max_speed = given.limits->velocity;
-    if (given.limits->effort > 0.0) joint.max_torque = given.limits->effort;
+    if (bounded && given.limits->lower > -urdf_unlimited) joint.lower = given.limits->lower;
+    if (bounded && given.limits->upper < urdf_unlimited) joint.upper = given.limits->upper;
+    auto const is_known = [](double most) { return most > 0.0 && most < urdf_unlimited; };
+    if (is_known(given.limits->velocity)) joint.max_speed = given.limits->velocity;
+    if (is_known(given.limits->effort)) joint.max_torque = given.limits->effort;
     double const widest = std::max(std::abs(given.limits->lower), std::abs(given.limits->upper));
     if (bounded && joint.kind == JointKind::revolute && widest > most_angle)
-      refuse(urdf_place(text_, "joint", given.name, "limit"),
+      refuse(urdf_place(xml_, "joint", given.name, "limit"),
              fmt::format("joint \"{}\" has a limit of {} rad: is it in degrees?", given.name, widest),
              fmt::format("write radians: {} degrees are {:.10g}", widest, widest * std::numbers::pi / 180.0));
+  }
+
+  // urdfdom takes any name for the joint that another one follows
+  void warn_of_missing_leaders() {
+    for (auto const& [child, joint] : tree_.joint_to)
+      if (!joint.mimics.empty() && !model_.joints_.contains(joint.mimics))
+        tree_.warnings.push_back(fmt::format("{}: joint \"{}\" follows \"{}\", and no joint is called so",
+                                             place_text(joint.place), joint.joint.name, joint.mimics));
   }
 
   // every joint must be reached from the root
@@ -233,44 +271,27 @@ class TreeReader {
         ++steps;
       }
       if (steps <= tree_.joint_to.size()) continue;
-      refuse(urdf_place(text_, "joint", joint.joint.name),
+      refuse(urdf_place(xml_, "joint", joint.joint.name),
              fmt::format("joint \"{}\" is part of a loop that does not begin at the base", joint.joint.name),
              "a serial arm has no loops: every link but the base has one parent, and the base has none");
       return;
     }
   }
 
-  RobotText const& text_;
+  XmlElement const& xml_;
   urdf::ModelInterface const& model_;
-  UrdfTree tree_;
+  RobotTree tree_;
   std::vector<Problem> problems_;
 };
 
 }  // namespace
 
-SourcePlace urdf_place(RobotText const& text, std::string const& element, std::string const& name,
-                       std::string const& inner) {
-  std::string const opening = "<" + element;
-  auto const& all = text.text;
-  for (std::size_t at = all.find(opening); at != std::string::npos; at = all.find(opening, at + 1)) {
-    std::size_t const end = all.find('>', at);
-    if (end == std::string::npos) break;
-    auto const head = all.substr(at, end - at);
-    bool const named = head.find(fmt::format("name=\"{}\"", name)) != std::string::npos ||
-                       head.find(fmt::format("name='{}'", name)) != std::string::npos;
-    if (!named || std::isalnum(static_cast<unsigned char>(all[at + opening.size()])) != 0) continue;
-    std::size_t const close = all.find("</" + element, end);
-    std::size_t const within = inner.empty() ? std::string::npos : all.find("<" + inner, end);
-    if (within < close) return text.place(within, all.find('>', within) + 1 - within);
-    return text.place(at, end + 1 - at);
-  }
-  return text.whole();
-}
-
-UrdfTree read_urdf_tree(RobotText const& text) {
-  refuse_deep_xml(text);
-  auto const model = parse(text);
-  return TreeReader(text, *model).read();
+RobotTree read_urdf_tree(RobotText const& text) {
+  auto const xml = read_xml(std::make_shared<RobotText const>(text), "URDF");
+  auto const model = parse(text, xml);
+  auto tree = TreeReader(xml, *model).read();
+  for (auto& sentence : unknown_words(xml, urdf_words())) tree.warnings.push_back(std::move(sentence));
+  return tree;
 }
 
 }  // namespace torquescope

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace torquescope {
@@ -53,6 +54,24 @@ CentredBody centred_body(LinkInertia const& link) {
   CentredBody body{link.mass, link.first_moment / link.mass, {}};
   body.inertia << about(0, 0), about(0, 1), about(0, 2), about(1, 1), about(1, 2), about(2, 2);
   return body;
+}
+
+std::string lost_numbers(ChainJoint const& joint, std::span<std::string_view const> keys) {
+  struct Number {
+    std::string_view key;
+    double value, unknown;
+  };
+  constexpr double none = ChainJoint::no_limit;
+  std::string list;
+  for (auto const& [key, value, unknown] : {Number{"gear_ratio", joint.gear_ratio, 1.0},
+                                            {"drive_inertia", joint.drive_inertia, 0.0},
+                                            {"encoder_counts", encoder_counts(joint), 0.0},
+                                            {"max_speed", joint.max_speed, none},
+                                            {"max_acceleration", joint.max_acceleration, none},
+                                            {"max_torque", joint.max_torque, none}})
+    if (value != unknown && std::find(keys.begin(), keys.end(), key) != keys.end())
+      list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", key, number_text(value));
+  return list.empty() ? "" : xml_comment(fmt::format("joint {}: {}", quoted_text(joint.name), list));
 }
 
 double encoder_counts(ChainJoint const& joint) {

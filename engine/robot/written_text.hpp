@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "engine/robot/serial_chain.hpp"
 
@@ -32,6 +34,10 @@ CentredBody centred_body(LinkInertia const& link);
 
 // an encoder step as counts per motor turn, or per m of a slide; 0: unknown
 double encoder_counts(ChainJoint const& joint);
+
+// what is known of a joint and has no place in a format, as a comment of XML; "" when it is nothing. keys: of those, as
+// a TOML robot writes them
+std::string lost_numbers(ChainJoint const& joint, std::span<std::string_view const> keys);
 
 inline bool is_limited(ChainJoint const& joint) { return std::isfinite(joint.lower) && std::isfinite(joint.upper); }
 

@@ -230,7 +230,7 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
 }  // namespace
 
 ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Payload> const& payloads) {
-  SerialChain chain = read_robot(job.resolve(options.robot));
+  SerialChain chain = read_robot(job.resolve(options.robot), {options.root, options.tip});
   if (!options.gravity.empty()) {
     validate(options.gravity.size() == 3, [&] {
       return problem_at(section_or_empty(job, "model"), "gravity",

@@ -63,7 +63,7 @@ void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, st
     Section const* there = job.find(section);
     if (there != nullptr && there->find(key) != nullptr) refuse(*there, key, std::string(section) + "." + key);
   };
-  refuse_key("model", "drive_gains");
+  for (auto const* key : {"drive_gains", "root", "tip"}) refuse_key("model", key);
   for (auto const* key : {"payload_kg", "payload_first_moments_kgm", "validate_payload_kg"})
     refuse_key("recording", key);
   auto const sections = job.all("estimator");

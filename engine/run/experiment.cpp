@@ -179,6 +179,8 @@ bool Experiment::asks_for_values() const { return !parts_->estimators.empty(); }
 
 std::vector<std::string> Experiment::warnings() const {
   std::vector<std::string> lines;
+  if (parts_->arm)
+    for (auto const& warning : parts_->arm->model.chain().warnings) lines.push_back("robot: " + warning);
   for (auto const& finding : findings())
     if (finding.grade != Grade::note)
       lines.push_back(fmt::format("{}: {}", finding.recording, sentence_with_cure(finding)));
@@ -197,6 +199,8 @@ std::vector<std::string> Experiment::warnings() const {
 
 std::vector<std::string> Experiment::remarks() const {
   std::vector<std::string> lines;
+  if (parts_->arm)
+    for (auto const& remark : parts_->arm->model.chain().remarks) lines.push_back("robot: " + remark);
   for (auto const& finding : findings())
     if (finding.grade == Grade::note) lines.push_back(fmt::format("{}: {}", finding.recording, sentence_of(finding)));
   if (parts_->filter_is_chosen)
@@ -232,6 +236,12 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   std::size_t keys = 0;
   for (auto const& section : parts_->job.sections) keys += section.settings.size();
   lines.push_back({Level::ok, "job", fmt::format("{}, none unknown", counted(keys, "key"))});
+
+  if (parts_->arm) {
+    auto const& chain = parts_->arm->model.chain();
+    for (auto const& warning : chain.warnings) lines.push_back({Level::warn, "robot", warning});
+    for (auto const& remark : chain.remarks) lines.push_back({Level::note, "robot", remark});
+  }
 
   auto const add_set = [&](DataSet const& set, std::string const& purpose) {
     for (std::size_t k = 0; k < set.recordings.size(); ++k) {

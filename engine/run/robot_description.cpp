@@ -42,8 +42,8 @@ RobotDescription::Joint described_joint(ChainJoint const& joint) {
 
 }  // namespace
 
-RobotDescription describe_robot(std::filesystem::path const& file) {
-  auto const chain = read_robot(file);
+RobotDescription describe_robot(std::filesystem::path const& file, RobotPart const& part) {
+  auto const chain = read_robot(file, part);
   BaseParameters const base(chain, DriveInertias::included);
   RobotDescription robot;
   robot.name = chain.name;
@@ -61,6 +61,7 @@ RobotDescription describe_robot(std::filesystem::path const& file) {
   robot.rigid_parameters = static_cast<int>(BaseParameters(chain, DriveInertias::left_out).size());
   robot.without_effect = base.without_effect();
   robot.remarks = chain.remarks;
+  robot.warnings = chain.warnings;
   return robot;
 }
 

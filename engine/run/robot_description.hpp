@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/robot/robot_part.hpp"
+
 namespace torquescope {
 
 struct RobotDescription {
@@ -29,9 +31,9 @@ struct RobotDescription {
   std::vector<Parameter> parameters;                  // with drive inertias
   int standard_parameters = 0, rigid_parameters = 0;  // of the links; base parameters without drives
   std::vector<std::string> without_effect;            // standard parameters that no torque depends on
-  std::vector<std::string> remarks;                   // sentences
+  std::vector<std::string> remarks, warnings;         // sentences; warnings with file and line
 };
 
-RobotDescription describe_robot(std::filesystem::path const& file);
+RobotDescription describe_robot(std::filesystem::path const& file, RobotPart const& part = {});
 
 }  // namespace torquescope

@@ -72,7 +72,8 @@ SimulateReport write_table(SimulatedTable const& table, std::string const& job_n
 
 SimulateReport simulate_one_arm(Job const& job, ModelOptions const& model, ExperimentOptions const& experiment,
                                 std::vector<Problem> problems, std::filesystem::path const& output) {
-  ArmSimulationPlan const plan = plan_arm_simulation(job, read_robot(job.resolve(model.robot)), problems);
+  ArmSimulationPlan const plan =
+      plan_arm_simulation(job, read_robot(job.resolve(model.robot), {model.root, model.tip}), problems);
   if (!problems.empty()) throw Error(std::move(problems));
   SimulatedArm const arm = simulate_arm(plan, static_cast<std::uint64_t>(experiment.seed));
   return write_table({columns(arm), truth_values(plan), plan.simulation.rate_hz}, experiment.name, output);

@@ -38,6 +38,27 @@ name = "elbow"
 a_m = 0.4
 """
 
+# the same arm on a trunk that floats, beside a neck, in two other formats
+AS_MJCF = """<mujoco model="planar arm">
+<compiler angle="radian"/>
+<worldbody>
+<body name="trunk" pos="0 0 1"><freejoint/>
+<body name="upper"><joint name="shoulder" axis="0 -1 0"/>
+<body name="fore" pos="0.4 0 0"><joint name="elbow" axis="0 -1 0"/></body></body>
+<body name="head" pos="0 0 0.5"><joint name="neck"/></body></body>
+</worldbody>
+</mujoco>
+"""
+AS_URDF = """<robot name="planar arm">
+<link name="world"/><link name="trunk"/><link name="upper"/><link name="fore"/><link name="head"/>
+<joint name="free" type="floating"><parent link="world"/><child link="trunk"/></joint>
+<joint name="shoulder" type="continuous"><parent link="trunk"/><child link="upper"/><axis xyz="0 -2 0"/></joint>
+<joint name="elbow" type="continuous"><parent link="upper"/><child link="fore"/><axis xyz="0 -1 0"/>
+<origin xyz="0.4 0 0"/></joint>
+<joint name="neck" type="continuous"><parent link="trunk"/><child link="head"/><axis xyz="0 0 1"/></joint>
+</robot>
+"""
+
 JOB = """
 [experiment]
 name = "planar"
@@ -161,6 +182,26 @@ class Arm(unittest.TestCase):
         self.assertIn("torquescope report", done.err)
         for line in done.out.splitlines():
             self.assertLessEqual(len(line), 80, line)
+
+    def test_a_part_of_a_robot_in_other_formats_is_the_same_arm(self):
+        _, expected = self.run_job()
+        for name, text in (("robot.xml", AS_MJCF), ("robot.urdf", AS_URDF)):
+            self.write(name, text)
+            part = f'robot = "{name}"\nroot = "trunk"\ntip = "fore"'
+            self.write("arm.toml", JOB.replace('robot = "arm_robot.toml"', part).replace('"planar"', f'"{name[6:]}"'))
+            _, told = self.run_job()
+            for mine, other in zip(told["estimators"], expected["estimators"]):
+                for one, same in zip(mine["parameters"], other["parameters"]):
+                    self.assertEqual(one["name"], same["name"])
+                    self.assertAlmostEqual(one["value"], same["value"], delta=1e-6 * (1 + abs(same["value"])))
+            # without its root the line to write is told; what nobody reads is warned of with its line
+            self.assertIn('root = "trunk" and tip = ', self.here("describe", name).err)
+            described = self.here("describe", name, "--root", "trunk", "--tip", "fore")
+            self.assertEqual(described.code, 0, described.err)
+            self.write(name, text.replace('axis="0 -1 0"', 'axes="0 -1 0"').replace("<axis", "<axic"))
+            checked = self.here("check", "arm.toml")
+            self.assertIn('did you mean "axis"?', " ".join(checked.out.split()))
+            self.assertIn(f"{name}:", checked.out)
 
     def test_the_result_holds_rows_and_products_of_each_joint(self):
         self.run_job()

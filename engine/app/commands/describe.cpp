@@ -91,11 +91,11 @@ std::string names_and_file() {
   return fmt::format("{}|FILE", fmt::join(names, "|"));
 }
 
-ExitCode describe(std::string const& name, Session const& session) {
+ExitCode describe(std::string const& name, RobotPart const& part, Session const& session) {
   bool const is_entry =
       std::any_of(catalogue().begin(), catalogue().end(), [&](auto const& one) { return one.name == name; });
   if (is_entry || !is_file_name(name)) return describe_entry(name, session);
-  RobotDescription const robot = describe_robot(name);
+  RobotDescription const robot = describe_robot(name, part);
   session.result(robot_text(robot, session.result_ink()));
   session.document(robot_json(robot));
   return ExitCode::ok;
@@ -105,18 +105,23 @@ ExitCode describe(std::string const& name, Session const& session) {
 
 void add_describe(CLI::App& app, ChosenCommand& chosen) {
   auto const name = std::make_shared<std::string>();
+  auto const part = std::make_shared<RobotPart>();
   CLI::App* command = app.add_subcommand("describe", "Explains one name with every option, or the robot in a file.");
   command->footer(
       "  torquescope describe fade\n"
       "  torquescope describe recording --json - | jq -r .entries[].options[].key\n"
-      "  torquescope describe jobs/robots/ur10e.toml\n");
+      "  torquescope describe go2.urdf --tip FL_foot\n");
   command->add_option("NAME", *name, "effect, optimiser, reader, loss, estimator, job section, or a robot file")
       ->required()
       ->type_name(names_and_file());
+  command->add_option("--root", part->root, "link of the robot that stands still, with all before it")
+      ->type_name("LINK");
+  command->add_option("--tip", part->tip, "link of the robot where the arm ends")->type_name("LINK");
   add_json_option(*command, chosen);
   add_colour_option(*command, chosen);
-  command->callback(
-      [name, &chosen] { chosen.work = [name](Session const& session) { return describe(*name, session); }; });
+  command->callback([name, part, &chosen] {
+    chosen.work = [name, part](Session const& session) { return describe(*name, *part, session); };
+  });
 }
 
 }  // namespace torquescope

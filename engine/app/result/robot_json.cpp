@@ -44,6 +44,7 @@ std::string robot_json(RobotDescription const& robot) {
                            {"rigid_base_parameters", robot.rigid_parameters},
                            {"base_parameters", parameters},
                            {"without_effect", robot.without_effect},
+                           {"warnings", robot.warnings},
                            {"remarks", robot.remarks}}}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -91,6 +91,7 @@ std::string robot_text(RobotDescription const& robot, Ink const& ink) {
   text += hanging("  tool     ", vector_text(robot.flange) + " m in the last frame");
   text += "\n" + hanging("", "frames: modified Denavit-Hartenberg, Rx(alpha) Tx(a) Rz(q + offset) Tz(d)");
   text += frames_text(robot) + limits_text(robot) + parameters_text(robot);
+  for (auto const& warning : robot.warnings) text += hanging("  warning  ", printable(warning));
   for (auto const& remark : robot.remarks) text += hanging("  note  ", printable(remark));
   return text;
 }

@@ -1,4 +1,4 @@
-// Robot files in TOML: Denavit-Hartenberg numbers, or a URDF with drives added to it.
+// Robot files in TOML: Denavit-Hartenberg numbers, or a URDF, xacro or MJCF with drives added to it.
 //
 // Errors     Error 78: every unknown key, wrong number and missing mass of the file at once, with places
 
@@ -11,7 +11,6 @@
 #include "engine/robot/robot_options.hpp"
 #include "engine/robot/robot_registry.hpp"
 #include "engine/robot/standard_dh.hpp"
-#include "engine/robot/urdf_chain.hpp"
 
 namespace torquescope::formats {
 
@@ -108,7 +107,7 @@ SerialChain chain_of_numbers(RobotSections const& read, std::vector<Problem>& pr
   return chain;
 }
 
-// keys that a URDF answers itself
+// keys that a file with links answers itself
 constexpr char const* frame_keys[] = {"type",       "a_m",     "alpha_rad", "d_m",
                                       "offset_rad", "mass_kg", "centre_m",  "inertia_kgm2"};
 
@@ -120,7 +119,8 @@ void add_drives(RobotSections const& read, SerialChain& chain, std::vector<Probl
     auto const& options = read.joint_options[i];
     for (auto const* key : frame_keys)
       if (section.find(key))
-        problems.push_back(problem_at(section, key, fmt::format("{} stands in the URDF already", key), "leave it out"));
+        problems.push_back(
+            problem_at(section, key, fmt::format("{} stands in the other file already", key), "leave it out"));
     auto const found = std::find(names.begin(), names.end(), options.name);
     if (found != names.end()) {
       apply_drive(section, options, chain.joints[static_cast<std::size_t>(found - names.begin())]);
@@ -135,20 +135,32 @@ void add_drives(RobotSections const& read, SerialChain& chain, std::vector<Probl
   }
 }
 
+// Denavit-Hartenberg numbers name no links
+void refuse_part(RobotSections const& read, RobotPart const& asked, std::vector<Problem>& problems) {
+  for (char const* const key : {"root", "tip"})
+    if (read.robot.find(key))
+      problems.push_back(problem_at(read.robot, key, fmt::format("{} is a link of a urdf, and there is none", key),
+                                    fmt::format("write urdf = \"robot.urdf\" as well, or leave {} out", key)));
+  if (asked.is_whole()) return;
+  auto problem = problem_at(read.robot, "urdf",
+                            fmt::format("\"{}\" was asked for, and a robot of Denavit-Hartenberg numbers has no links",
+                                        asked.tip.empty() ? asked.root : asked.tip),
+                            "leave root and tip out: such a file describes one arm");
+  problems.push_back(std::move(problem));
+}
+
 bool accepts(RobotText const& text) {
   auto const has = [&](char const* words) { return text.text.find(words) != std::string::npos; };
   return has("[robot]") || has("[[joint]]");
 }
 
-SerialChain read(RobotText const& text) {
+SerialChain read(RobotText const& text, RobotPart const& asked) {
   std::vector<Problem> problems;
   auto const sections = read_sections(text, problems);
   auto const& options = sections.options;
   SerialChain chain;
   if (options.urdf.empty()) {
-    if (sections.robot.find("tip"))
-      problems.push_back(problem_at(sections.robot, "tip", "tip is a link of a urdf, and there is none",
-                                    "write urdf = \"robot.urdf\" as well, or leave tip out"));
+    refuse_part(sections, asked, problems);
     chain = chain_of_numbers(sections, problems);
     finish(problems);
     Eigen::Vector3d const flange = Eigen::Vector3d::Map(options.flange_m.data());
@@ -158,23 +170,26 @@ SerialChain read(RobotText const& text) {
     for (auto const* key : {"convention", "flange_m"})
       if (sections.robot.find(key))
         problems.push_back(
-            problem_at(sections.robot, key, fmt::format("{} stands in the URDF already", key), "leave it out"));
+            problem_at(sections.robot, key, fmt::format("{} stands in the other file already", key), "leave it out"));
     finish(problems);
     auto const folder = std::filesystem::path(text.file).parent_path();
-    chain = read_urdf_chain(RobotText::read(folder / options.urdf), options.tip);
+    RobotPart const part{asked.root.empty() ? options.root : asked.root, asked.tip.empty() ? options.tip : asked.tip};
+    chain = read_linked_robot(folder / options.urdf, part);
     add_drives(sections, chain, problems);
     finish(problems);
   }
   if (!options.name.empty()) chain.name = options.name;
   if (chain.name.empty()) chain.name = std::filesystem::path(text.file).stem().string();
-  chain.gravity = chain.base.rotation.transpose() * Eigen::Vector3d::Map(options.gravity.data());
+  if (options.urdf.empty() || sections.robot.find("gravity"))
+    chain.gravity = chain.base.rotation.transpose() * Eigen::Vector3d::Map(options.gravity.data());
   return chain;
 }
 
 }  // namespace
 
 RobotFormat toml() {
-  return {"toml", "TOML with [robot] and [[joint]]: standard or modified Denavit-Hartenberg numbers", accepts, read};
+  return {"toml", "TOML with [robot] and [[joint]]: standard or modified Denavit-Hartenberg numbers", false, accepts,
+          read};
 }
 
 }  // namespace torquescope::formats

@@ -15,6 +15,8 @@ namespace torquescope::writers {
 
 namespace {
 
+constexpr std::string_view no_place[] = {"gear_ratio", "encoder_counts", "max_speed", "max_acceleration", "max_torque"};
+
 std::string pose_text(FramePose const& pose) {
   Eigen::Quaterniond const turn = Eigen::Quaterniond(pose.rotation).normalized();
   Eigen::Vector4d const numbers(turn.w(), turn.x(), turn.y(), turn.z());
@@ -46,6 +48,7 @@ std::string body_text(ChainJoint const& joint, LinkInertia const& link, FramePos
 std::string write(SerialChain const& chain, std::vector<std::string> const& notes) {
   std::string text;
   for (auto const& note : notes) text += xml_comment(note);
+  for (auto const& joint : chain.joints) text += lost_numbers(joint, no_place);
   text += fmt::format("<mujoco model=\"{}\">\n  <compiler angle=\"radian\"/>\n", xml_text(chain.name));
   text += fmt::format("  <option gravity=\"{}\"/>\n  <worldbody>\n",
                       numbers_text(chain.base.rotation * chain.gravity, " "));

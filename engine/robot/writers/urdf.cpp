@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "engine/robot/robot_writers.hpp"
+#include "engine/robot/urdf_limits.hpp"
 #include "engine/robot/vector3.hpp"
 #include "engine/robot/written_text.hpp"
 
@@ -14,7 +16,7 @@ namespace torquescope::writers {
 namespace {
 
 constexpr double gravity_of_readers = 9.81;  // m/s^2; a URDF says no other
-constexpr double unlimited_m = 1e6;          // a slide must have limits
+constexpr std::string_view no_place[] = {"gear_ratio", "drive_inertia", "encoder_counts", "max_acceleration"};
 
 // fixed-axis angles; yaw first, so that none is lost where pitch is a right angle
 Eigen::Vector3d roll_pitch_yaw(Eigen::Matrix3d const& rotation) {
@@ -43,13 +45,19 @@ std::string link_text(std::string const& name, LinkInertia const* link) {
 
 std::string limit_text(ChainJoint const& joint) {
   bool const slides = joint.kind == JointKind::prismatic;
-  auto const given = [](double value, double other) { return number_text(std::isfinite(value) ? value : other); };
-  std::string range;
-  if (slides || is_limited(joint))
-    range =
-        fmt::format("lower=\"{}\" upper=\"{}\" ", given(joint.lower, -unlimited_m), given(joint.upper, unlimited_m));
-  return fmt::format("<limit {}effort=\"{}\" velocity=\"{}\"/>", range, given(joint.max_torque, 0.0),
-                     given(joint.max_speed, 0.0));
+  bool const has_range = slides || is_limited(joint);
+  if (!has_range && !std::isfinite(joint.max_torque) && !std::isfinite(joint.max_speed)) return "";
+  auto const given = [](double value) {
+    return number_text(std::isfinite(value) ? value : std::copysign(urdf_unlimited, value));
+  };
+  std::string const range =
+      has_range ? fmt::format("lower=\"{}\" upper=\"{}\" ", given(joint.lower), given(joint.upper)) : "";
+  return fmt::format("    <limit {}effort=\"{}\" velocity=\"{}\"/>\n", range, given(joint.max_torque),
+                     given(joint.max_speed));
+}
+
+bool has_unknown_limit(ChainJoint const& joint) {
+  return limit_text(joint).find(number_text(urdf_unlimited)) != std::string::npos;
 }
 
 std::string joint_text(ChainJoint const& joint, FramePose const& origin, std::string const& parent,
@@ -58,7 +66,7 @@ std::string joint_text(ChainJoint const& joint, FramePose const& origin, std::st
   std::string const type = slides ? "prismatic" : is_limited(joint) ? "revolute" : "continuous";
   return fmt::format("  <joint name=\"{}\" type=\"{}\">\n    <parent link=\"{}\"/>\n    <child link=\"{}\"/>\n",
                      xml_text(joint.name), type, parent, child) +
-         fmt::format("    {}\n    <axis xyz=\"0 0 1\"/>\n    {}\n  </joint>\n", origin_text(origin), limit_text(joint));
+         fmt::format("    {}\n    <axis xyz=\"0 0 1\"/>\n{}  </joint>\n", origin_text(origin), limit_text(joint));
 }
 
 // the shortest turn of one direction onto another
@@ -89,7 +97,12 @@ FramePose standing(SerialChain const& chain) {
 std::string write(SerialChain const& chain, std::vector<std::string> const& notes) {
   std::string text = "<?xml version=\"1.0\"?>\n";
   for (auto const& note : notes) text += xml_comment(note);
-  text += xml_comment("A URDF holds no gear ratios, drive inertias and encoders: those stay in the TOML file.");
+  text += xml_comment(
+      "A URDF holds no gear ratios, drive inertias, encoders and accelerations: write them in a TOML file.");
+  for (auto const& joint : chain.joints) text += lost_numbers(joint, no_place);
+  if (std::any_of(chain.joints.begin(), chain.joints.end(), has_unknown_limit))
+    text += xml_comment(
+        fmt::format("{:g} as an effort, a velocity or an end of a slide: that limit is not known.", urdf_unlimited));
   if (double const size = chain.gravity.norm(); std::abs(size - gravity_of_readers) > 1e-9)
     text += xml_comment(fmt::format("Gravity was {} m/s^2, and a URDF cannot say so: tell your program.", size));
   text += fmt::format("<robot name=\"{}\">\n  <link name=\"base_link\"/>\n", xml_text(chain.name));

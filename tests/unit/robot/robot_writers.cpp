@@ -96,6 +96,16 @@ TEST(RobotWriters, UrdfReadAgainHasTheSameTorque) {
   }
 }
 
+TEST(RobotWriters, AnUnknownLimitIsNoZeroAndWhatIsLostIsSaid) {
+  auto arm = arm_of_a_file(4);
+  arm.chain.joints[0].max_torque = ChainJoint::no_limit;
+  auto const urdf = written("urdf", arm.chain);
+  EXPECT_THAT(urdf, testing::Not(testing::HasSubstr("effort=\"0\"")));
+  EXPECT_THAT(urdf, testing::HasSubstr("that limit is not known"));
+  EXPECT_THAT(urdf, testing::HasSubstr("joint \"joint_1\": gear_ratio = 100, drive_inertia = "));
+  EXPECT_THAT(written("mjcf", arm.chain), testing::HasSubstr("joint \"joint_1\": gear_ratio = 100, encoder_counts"));
+}
+
 TEST(RobotWriters, UrdfOfAnArmWithoutMassesIsOneWithoutMasses) {
   auto chain = test::panda();
   for (std::size_t i = 0; i < chain.joints.size(); ++i) chain.joints[i].name = "joint_" + std::to_string(i + 1);
