@@ -88,14 +88,12 @@ def hdf5s(folder):
     return ()
 
 
-def jsons(folder):
+def jsons(_):
     records = [{"t": 0.01 * k, "joint": {"q": [0.1 * k, 1.0], "on": k % 2 == 0}, "note": "a"} for k in range(9)]
     columns = {"meta": {"robot": "r"}, "t": [0.01 * k for k in range(9)], "q": [[k, 2 * k] for k in range(9)]}
     texts = {"records": json.dumps(records), "lines": "\n".join(json.dumps(one) for one in records),
              "columns": json.dumps(columns, indent=1), "not_numbers": '[{"t": NaN, "q": -Infinity}, {"t": null}]'}
-    for name, text in texts.items():
-        with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
-            file.write(text)
+    return [(name + ".json", text.encode()) for name, text in texts.items()]
 
 
 def npzs(folder):
