@@ -109,6 +109,14 @@ std::string what_of(Diagnosis const& diagnosis, JointDiagnosis const& joint, Ver
   return finding + (diagnosis.way_out.empty() ? "" : "; " + without_full_stop(diagnosis.way_out));
 }
 
+// "at joint 2 and joint 3", of an arm without a law of the whole
+std::string where_missing(std::vector<JointDiagnosis> const& joints) {
+  std::vector<std::string> names;
+  for (auto const& joint : joints)
+    if (joint.verdict != Verdict::none) names.push_back(which_joint(joint));
+  return names.empty() ? "at any joint" : "at " + name_list(names, "and");
+}
+
 struct Errors {
   double before = unknown, after = unknown;
 
@@ -156,6 +164,7 @@ VerdictLines arm_lines(Diagnosis const& diagnosis) {
   VerdictLines lines;
   if (diagnosis.arm)
     for (auto const& effect : diagnosis.arm->effects) lines.what += (lines.what.empty() ? "" : "; ") + class_of(effect);
+  if (lines.what.empty()) lines.what = where_missing(diagnosis.joints);
   double energy = 0.0, before = 0.0, after = 0.0;
   for (auto const& joint : diagnosis.joints) {
     Errors const errors =

@@ -189,8 +189,8 @@ class ArmDiagnosis(arm_cli.Arm):
         self.assertIn("of arm.csv on all joints feel a payload", told["reason"])
         looked_at = {one["name"]: one["decision"] for one in told["arm"]["candidates"]}
         self.assertEqual(looked_at, {"payload_picked_up": "named", "gravity_direction": "no"})
-        shown = self.here("show", "told.h5")
-        self.assertIn("a payload of the last link, picked up or put down", shown.out)
+        self.assertIn("payload picked up 1.2 kg", self.here("show", "told.h5").out)
+        self.assertIn("payload_picked_up", self.here("show", "told.h5", "--all").out)
         with h5py.File(os.path.join(self.folder, "told.h5"), "r", locking=False) as result:
             kept = result["diagnosis/arm/effects/effect_1"].attrs
             self.assertEqual(kept["name"].decode(), "payload_picked_up")

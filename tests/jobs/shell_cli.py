@@ -147,7 +147,7 @@ class Bash(WithShell):
         self.assertEqual(self.offers("show", "l"), ["lab.h5", "lab_more"])
         self.assertIn("rec.csv", self.offers("init", ""))
         self.assertEqual(self.offers("list", "eff"), ["effects"])
-        self.assertEqual(self.offers("describe", "strib"), ["stribeck"])
+        self.assertEqual(self.offers("describe", "strib"), ["stribeck", "stribeck_friction"])
         self.assertEqual(self.offers("describe", "rec"), ["rec.csv", "recording", "recordings"])
         self.assertEqual(self.offers("completion", ""), ["bash", "fish", "zsh"])
 

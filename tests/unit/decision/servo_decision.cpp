@@ -71,6 +71,7 @@ struct Asked {
     loop.form = LoopForm::p;
     loop.values[LoopKey::kp] = 1.0;
     ServoQuestion asked{terms, loop, DriveCommand::voltage, training, validation};
+    asked.laws.of_drive.assign(drive_laws().begin(), drive_laws().end());
     asked.seed = 3;
     asked.threads = threads;
     asked.most_laws = most_laws;
