@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -21,8 +22,10 @@ struct Trial {
 
 class Search {
  public:
-  Search(ArmSamples const& samples, SerialChain const& chain, SetupNumbers const& numbers)
+  Search(ArmSamples const& samples, SerialChain const& chain, std::optional<SerialChain> const& otherwise,
+         SetupNumbers const& numbers)
       : samples_(samples),
+        otherwise_(otherwise),
         numbers_(numbers),
         setup_(setup_as_read(chain)),
         base_(of(chain)),
@@ -36,7 +39,7 @@ class Search {
       if (!best || is_small_tilt(best->change)) break;
       auto const error = best->is_told_by_file ? &SetupFit::file_error : &SetupFit::error;
       search.steps.push_back({best->change, best->is_told_by_file, fit_.*error, best->fit.*error});
-      setup_ = changed(std::move(setup_), best->change);
+      setup_ = with(best->change);
       base_ = of(setup_.chain);
       fit_ = best->fit;
     }
@@ -62,8 +65,12 @@ class Search {
     return change.kind == SetupKind::gravity && std::abs(std::remainder(change.number, right_angle)) > 1e-6;
   }
 
+  ArmSetup with(SetupChange const& change) const {
+    return changed(setup_, change, otherwise_ ? *otherwise_ : SerialChain{});
+  }
+
   Trial tried(SetupChange change) const {
-    ArmSetup const other = changed(setup_, change);
+    ArmSetup const other = with(change);
     return {change, is_of_chain(change.kind) ? fit(other, of(other.chain)) : fit(other, base_)};
   }
 
@@ -71,8 +78,9 @@ class Search {
   void add_factors(std::vector<Trial>& all) const {
     auto const n = samples_.q.cols();
     auto const add = [&](Index joint, double factor) {
-      bool const is_a_unit = std::abs(std::log(std::abs(factor))) > std::log(numbers_.least_factor);
-      if (std::isfinite(factor) && is_a_unit) all.push_back(tried({SetupKind::torque_factor, joint, -1, factor}));
+      double const size = std::abs(std::log(std::abs(factor)));
+      bool const is_a_unit = size > std::log(numbers_.least_factor) && size < std::log(numbers_.greatest_factor);
+      if (is_a_unit) all.push_back(tried({SetupKind::torque_factor, joint, -1, factor}));
     };
     bool const has_gears = std::any_of(setup_.chain.joints.begin(), setup_.chain.joints.end(),
                                        [](ChainJoint const& joint) { return joint.gear_ratio != 1.0; });
@@ -118,32 +126,34 @@ class Search {
     for (SetupKind const kind : {joints_exchanged, positions_exchanged, torques_exchanged})
       for (Index j = 0; j < n; ++j)
         for (Index i = j + 1; i < n; ++i) changes.push_back({kind, j, i});
-    changes.push_back({dh_convention});
+    if (otherwise_ && !setup_.is_of_other_convention) changes.push_back({dh_convention});
     changes.push_back({no_gravity});
     constexpr double degree = std::numbers::pi / 180.0;
     for (double const factor : {degree, 1.0 / degree, 1e-3})
       for (Index j = n == 1 ? 0 : -1; j < n; ++j) changes.push_back({position_factor, j, -1, factor});
     for (double const turn : {right_angle, -right_angle, 2.0 * right_angle})
-      for (Index axis = 0; axis < 2; ++axis) changes.push_back({gravity, axis, -1, turn});
+      for (Index const axis : axes_across_gravity()) changes.push_back({gravity, axis, -1, turn});
     for (double const turn : {right_angle, -right_angle, 2.0 * right_angle})
       for (Index j = 0; j < n; ++j)
         if (turns(j)) changes.push_back({zero, j, -1, turn});
     return changes;
   }
 
+  std::vector<Index> axes_across_gravity() const {
+    std::vector<Index> axes;
+    Eigen::Vector3d const gravity = setup_.chain.base.rotation * setup_.chain.gravity;
+    constexpr double along = 0.99;  // turning about it changes nothing
+    for (Index axis = 0; axis < 3; ++axis)
+      if (std::abs(gravity[axis]) < along * gravity.norm()) axes.push_back(axis);
+    return axes;
+  }
+
   bool turns(Index joint) const {
     return setup_.chain.joints[static_cast<std::size_t>(joint)].kind == JointKind::revolute;
   }
 
-  // one joint's error falls by half, and no other's rises
   bool mends(Eigen::VectorXd const& before, Eigen::VectorXd const& after, double least_error) const {
-    bool halves = false;
-    for (Index j = 0; j < after.size(); ++j) {
-      double const was = std::max(before[j], SetupFit::floor), is = std::max(after[j], SetupFit::floor);
-      if (is > numbers_.worse * was) return false;
-      halves = halves || (was > least_error && is < numbers_.halves * was);
-    }
-    return halves;
+    return halves_one(before, after, least_error, numbers_);
   }
 
   std::vector<Trial> trials() const {
@@ -152,7 +162,7 @@ class Search {
     auto const n = samples_.q.cols();
     add_factors(all);
     constexpr double tenth = 0.1;
-    for (Index axis = 0; axis < 2; ++axis)
+    for (Index const axis : axes_across_gravity())
       for (double const tilt : {tenth, -tenth, 3.0 * tenth, -3.0 * tenth})
         all.push_back(tried({SetupKind::gravity, axis, -1, tilt}));
     for (Index j = 0; j < n; ++j) {
@@ -176,13 +186,15 @@ class Search {
     return nearly_fits && mends(fit_.file_error, after.file_error, numbers_.file_slack);
   }
 
-  // the best by this score, the plainer of those that are as good
-  std::optional<Trial> best_of(std::vector<Trial> const& all, double SetupFit::*score) const {
-    if (all.empty()) return {};
-    double lowest = all.front().fit.*score;
+  // those whose score is as good as the best one, the plainer first
+  std::vector<Trial> best_of(std::vector<Trial> const& all, double SetupFit::*score) const {
+    std::vector<Trial> best;
+    double lowest = std::numeric_limits<double>::infinity();
     for (auto const& one : all) lowest = std::min(lowest, one.fit.*score);
     double const as_good = lowest + numbers_.alike * static_cast<double>(samples_.q.cols());
-    return *std::find_if(all.begin(), all.end(), [&](Trial const& one) { return one.fit.*score <= as_good; });
+    for (auto const& one : all)
+      if (one.fit.*score <= as_good) best.push_back(one);
+    return best;
   }
 
   // what the recording says by itself, then what the robot file says where no fit gets worse by it
@@ -191,16 +203,18 @@ class Search {
     std::vector<Trial> fitting, of_file;
     for (auto const& one : all) {
       if (mends(fit_.error, one.fit.error, numbers_.least_error)) fitting.push_back(one);
-      bool const is_as_good =
-          (one.fit.error.array().max(SetupFit::floor) <= numbers_.worse * fit_.error.array().max(SetupFit::floor))
-              .all();
-      if (is_as_good && is_told_by_file(one.fit)) of_file.push_back({one.change, one.fit, true});
+      if (raises_none(fit_.error, one.fit.error, numbers_) && is_told_by_file(one.fit))
+        of_file.push_back({one.change, one.fit, true});
     }
-    auto const by_fit = best_of(fitting, &SetupFit::score);
-    return by_fit ? by_fit : best_of(of_file, &SetupFit::file_score);
+    // of changes that the motion cannot tell apart, the one that the robot file tells
+    auto best = best_of(fitting, &SetupFit::score);
+    if (fit_.file_error.size() > 0) best = best_of(best.empty() ? of_file : best, &SetupFit::file_score);
+    if (best.empty()) return {};
+    return best.front();
   }
 
   ArmSamples const& samples_;
+  std::optional<SerialChain> const& otherwise_;
   SetupNumbers const numbers_;
   ArmSetup setup_;
   BaseParameters base_;
@@ -209,8 +223,22 @@ class Search {
 
 }  // namespace
 
-SetupSearch search_setup(ArmSamples const& samples, SerialChain const& chain, SetupNumbers const& numbers) {
-  return Search(samples, chain, numbers).run();
+bool raises_none(Eigen::VectorXd const& before, Eigen::VectorXd const& after, SetupNumbers const& numbers) {
+  auto const in_bounds = [&](Eigen::VectorXd const& error) -> Eigen::ArrayXd {
+    return error.array().max(SetupFit::floor).min(numbers.tells_nothing);
+  };
+  return (in_bounds(after) <= numbers.worse * in_bounds(before)).all();
+}
+
+bool halves_one(Eigen::VectorXd const& before, Eigen::VectorXd const& after, double least_error,
+                SetupNumbers const& numbers) {
+  Eigen::ArrayXd const was = before.array().min(numbers.tells_nothing), is = after.array().max(SetupFit::floor);
+  return raises_none(before, after, numbers) && (was > least_error && is < numbers.halves * was).any();
+}
+
+SetupSearch search_setup(ArmSamples const& samples, SerialChain const& chain,
+                         std::optional<SerialChain> const& otherwise, SetupNumbers const& numbers) {
+  return Search(samples, chain, otherwise, numbers).run();
 }
 
 }  // namespace torquescope

@@ -33,4 +33,12 @@ SerialChain read_robot(std::filesystem::path const& path) {
   throw Error(std::move(problem));
 }
 
+std::optional<OtherConvention> read_robot_otherwise(std::filesystem::path const& path) {
+  auto const text = RobotText::read(path);
+  for (auto const& format : robot_formats())
+    if (format.accepts(text))
+      return format.read_otherwise != nullptr ? format.read_otherwise(text) : std::optional<OtherConvention>{};
+  return {};
+}
+
 }  // namespace torquescope

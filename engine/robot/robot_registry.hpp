@@ -5,6 +5,7 @@
 // Threads    one file at a time: urdfdom reports through a global handler
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,15 +14,25 @@
 
 namespace torquescope {
 
+// the same numbers, read in the Denavit-Hartenberg convention that the file does not name
+struct OtherConvention {
+  std::string name;  // "standard_dh"
+  SerialChain chain;
+};
+
 struct RobotFormat {
   std::string name;     // "urdf"
   std::string meaning;  // "Unified Robot Description Format"
   bool (*accepts)(RobotText const&);
   SerialChain (*read)(RobotText const&);
+  std::optional<OtherConvention> (*read_otherwise)(RobotText const&) = nullptr;  // nullptr: it knows one convention
 };
 
 std::vector<RobotFormat> const& robot_formats();
 
 SerialChain read_robot(std::filesystem::path const& path);
+
+// empty where the file has no such numbers. Requires a file that read_robot() reads
+std::optional<OtherConvention> read_robot_otherwise(std::filesystem::path const& path);
 
 }  // namespace torquescope

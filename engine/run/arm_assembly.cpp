@@ -163,7 +163,8 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
   }
   if (track != nullptr) track->moves = moves;
   constexpr Index most_samples = 1200;
-  if (samples != nullptr && !file.payload) samples->add(motion, moves, most_samples);
+  if (samples != nullptr && !file.payload)
+    samples->add(motion, moves, edge_samples(parts.filter, whole.rate_hz), most_samples);
   whole.findings = joined_findings(whole.findings);
   auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter, file.payload);
   set.recordings.push_back(std::move(whole));
@@ -229,6 +230,7 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
 
 ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Payload> const& payloads) {
   SerialChain chain = read_robot(job.resolve(options.robot));
+  auto otherwise = read_robot_otherwise(job.resolve(options.robot));
   if (!options.gravity.empty()) {
     validate(options.gravity.size() == 3, [&] {
       return problem_at(section_or_empty(job, "model"), "gravity",
@@ -245,6 +247,7 @@ ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Paylo
   terms.drive_gains = options.drive_gains;
   std::string const sha256 = digest_of(chain);
   ArmParts arm{ArmModel(std::move(chain), terms, section_or_empty(job, "model")), options.robot, sha256};
+  arm.otherwise = std::move(otherwise);
   return arm;
 }
 
