@@ -31,24 +31,56 @@ class Search {
         base_(of(chain)),
         fit_(fit(setup_, base_)) {}
 
-  SetupSearch run() {
-    SetupSearch search;
-    while (search.steps.size() < numbers_.most_changes && is_in_question()) {
-      auto const best = best_change();
-      // a tilt is physics of the base, told by others
-      if (!best || is_small_tilt(best->change)) break;
-      auto const error = best->is_told_by_file ? &SetupFit::file_error : &SetupFit::error;
-      search.steps.push_back({best->change, best->is_told_by_file, fit_.*error, best->fit.*error});
-      setup_ = with(best->change);
-      base_ = of(setup_.chain);
-      fit_ = best->fit;
+  // From each of the most promising first changes on: of two mistakes, the one that gains most alone may be neither
+  SetupSearch run() const {
+    Search best = *this;
+    for (auto const& first : first_changes()) {
+      Search other = *this;
+      other.take(first);
+      other.go_on();
+      if (best.search_.steps.empty() ||
+          (raises_none(fit_.error, other.fit_.error, numbers_) && other.is_better_than(best)))
+        best.become(std::move(other));
     }
-    search.fit = std::move(fit_);
-    search.setup = std::move(setup_);
-    return search;
+    best.search_.fit = best.fit_;
+    best.search_.setup = best.setup_;
+    return best.search_;
   }
 
  private:
+  void become(Search&& other) {
+    setup_ = std::move(other.setup_);
+    base_ = std::move(other.base_);
+    fit_ = std::move(other.fit_);
+    search_ = std::move(other.search_);
+  }
+
+  void take(Trial const& trial) {
+    auto const error = trial.is_told_by_file ? &SetupFit::file_error : &SetupFit::error;
+    search_.steps.push_back({trial.change, trial.is_told_by_file, fit_.*error, trial.fit.*error});
+    setup_ = with(trial.change);
+    base_ = of(setup_.chain);
+    fit_ = trial.fit;
+  }
+
+  void go_on() {
+    while (search_.steps.size() < numbers_.most_changes) {
+      auto const next = next_changes();
+      if (next.empty()) return;
+      take(next.front());
+    }
+  }
+
+  // by what is left; a further change must be worth it
+  bool is_better_than(Search const& other) const {
+    auto const joints = static_cast<double>(samples_.q.cols());
+    auto const cost = [&](Search const& of) {
+      return of.fit_.score + of.fit_.file_score +
+             std::log(1.0 / numbers_.halves) * static_cast<double>(of.search_.steps.size());
+    };
+    return cost(*this) < cost(other) - numbers_.alike * joints;
+  }
+
   bool is_in_question() const {
     bool const by_file = fit_.file_error.size() > 0 && fit_.file_error.maxCoeff() > numbers_.file_slack;
     return by_file || fit_.error.maxCoeff() > numbers_.least_error;
@@ -94,15 +126,17 @@ class Search {
     add(-1, *middle);
   }
 
-  // of two zeros: by the recording, and by the file where that does not tell
-  bool better(SetupFit const& one, SetupFit const& other) const {
-    return one.score + one.file_score < other.score + other.file_score;
+  // of two zeros, to the last digit: by the recording, and by the file where that does not tell
+  static bool better(SetupFit const& one, SetupFit const& other) {
+    constexpr double exact = 1e-9;
+    auto const sum = [=](Eigen::VectorXd const& error) { return error.array().max(exact).log().sum(); };
+    return sum(one.error) + sum(one.file_error) < sum(other.error) + sum(other.file_error);
   }
 
   // about a zero that helps, by thirds: the error has one minimum within a few degrees
   Trial refined_zero(Trial start) const {
     double width = 0.5 * std::min(std::abs(start.change.number), right_angle / 6.0);
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < 10; ++k) {
       Trial next = start;
       for (double const side : {-1.0, 1.0}) {
         SetupChange change = start.change;
@@ -197,28 +231,47 @@ class Search {
     return best;
   }
 
-  // what the recording says by itself, then what the robot file says where no fit gets worse by it
-  std::optional<Trial> best_change() const {
-    std::vector<Trial> const all = trials();
+  // what the recording says by itself, or what the robot file says where no fit gets worse by it; the best one first
+  std::vector<Trial> next_changes() const {
+    if (!is_in_question()) return {};
     std::vector<Trial> fitting, of_file;
-    for (auto const& one : all) {
+    for (auto const& one : trials()) {
       if (mends(fit_.error, one.fit.error, numbers_.least_error)) fitting.push_back(one);
       if (raises_none(fit_.error, one.fit.error, numbers_) && is_told_by_file(one.fit))
         of_file.push_back({one.change, one.fit, true});
     }
+    auto& all = fitting.empty() ? of_file : fitting;
+    auto const score = fitting.empty() ? &SetupFit::file_score : &SetupFit::score;
+    auto next = best_of(all, score);
     // of changes that the motion cannot tell apart, the one that the robot file tells
-    auto best = best_of(fitting, &SetupFit::score);
-    if (fit_.file_error.size() > 0) best = best_of(best.empty() ? of_file : best, &SetupFit::file_score);
-    if (best.empty()) return {};
-    return best.front();
+    if (fit_.file_error.size() > 0) next = best_of(next, &SetupFit::file_score);
+    // a tilt is physics of the base, told by others
+    if (next.empty() || is_small_tilt(next.front().change)) return {};
+    next.resize(1);
+    return next;
+  }
+
+  // beside the best one: those that lower the errors altogether, though one of them may rise until a second mistake is
+  // mended
+  std::vector<Trial> first_changes() const {
+    std::vector<Trial> first = next_changes();
+    if (first.empty()) return first;
+    std::vector<Trial> others = trials();
+    auto const score = [](Trial const& one) { return one.fit.score + one.fit.file_score; };
+    std::stable_sort(others.begin(), others.end(), [&](Trial const& a, Trial const& b) { return score(a) < score(b); });
+    for (auto const& one : others)
+      if (first.size() < numbers_.beginnings && !is_small_tilt(one.change))
+        first.push_back({one.change, one.fit, first.front().is_told_by_file});
+    return first;
   }
 
   ArmSamples const& samples_;
   std::optional<SerialChain> const& otherwise_;
-  SetupNumbers const numbers_;
+  SetupNumbers const& numbers_;
   ArmSetup setup_;
   BaseParameters base_;
   SetupFit fit_;
+  SetupSearch search_;
 };
 
 }  // namespace

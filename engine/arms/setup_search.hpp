@@ -2,8 +2,8 @@
 // What may be wrong with an arm's set-up: signs, exchanged columns, zeros, units, the convention of its file, gravity's
 // direction. Asked before any physics, because a wrong set-up looks like all of it.
 //
-// How        every single change is fitted by products alone (setup_fit.hpp); the best one is taken where it halves the
-//            held-out error of a joint and makes no other worse; then the next, beside it, up to three
+// How        every single change is fitted by products alone (setup_fit.hpp). Those that halve the held-out error of a
+//            joint and make no other worse begin a row of up to three; the row that leaves least is taken
 // Not told   what the motion cannot tell: a vertical first joint has no zero; the last links of most arms no sign. A
 //            change that only gives other parameters their values changes no error
 // Units      SI
@@ -27,6 +27,7 @@ struct SetupNumbers {
   double least_factor = 1.5;      // of a torque: smaller ones are gains of drives, not units
   double greatest_factor = 1e6;   // milli, and a gear of 1000
   std::size_t most_changes = 3;
+  std::size_t beginnings = 5;  // first changes that are followed up
 };
 
 struct SetupStep {

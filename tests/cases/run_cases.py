@@ -167,12 +167,13 @@ CASE_LIST = [
     Case("61_arm_zero_off", ["arm_setup"], says=["the zero of j2", "zero = [0, -0.2"]),
     Case("61_arm_zero_off", values=ARM, unsaid=ARM_FINDINGS,
          advised=("[recording]", "[recording]\nzero = [0, -0.25, 0]")),
-    Case("62_arm_motor_side_torque", ["arm_setup"], says=["the torque of j3 is 50", "torque_per_unit = [1, 1, "]),
+    Case("62_arm_motor_side_torque", ["arm_setup"],
+         says=["the torque of j3 is", "times too small", "torque_per_unit = [1, 1, "]),
     Case("62_arm_motor_side_torque", values=ARM, unsaid=ARM_FINDINGS,
-         advised=("[recording]", "[recording]\ntorque_per_unit = [1, 1, 50]")),
+         advised=("[recording]", "[recording]\ntorque_per_unit = [1, 1, 49.68]")),
     Case("63_arm_picked_up_a_load", ["arm_changes_at"], says=["the torque changes at 15", "leave_out = [["]),
     Case("63_arm_picked_up_a_load", values=ARM, unsaid=ARM_FINDINGS,
-         advised=("[recording]", "[recording]\nleave_out = [[15, 31]]")),
+         advised=("[recording]", "[recording]\nleave_out = [[15.02, 31]]")),
 ]
 
 
