@@ -133,8 +133,8 @@ class Search {
     return sum(one.error) + sum(one.file_error) < sum(other.error) + sum(other.file_error);
   }
 
-  // about a zero that helps, by thirds: the error has one minimum within a few degrees
-  Trial refined_zero(Trial start) const {
+  // about an angle that helps, by halves: the error has one minimum within a few degrees
+  Trial refined(Trial start) const {
     double width = 0.5 * std::min(std::abs(start.change.number), right_angle / 6.0);
     for (int k = 0; k < 10; ++k) {
       Trial next = start;
@@ -148,6 +148,19 @@ class Search {
       width *= 0.5;
     }
     return start;
+  }
+
+  // this change by the angle that helps most, either way; nothing where none does
+  void add_angle(std::vector<Trial>& all, SetupChange change, std::vector<double> const& sizes) const {
+    change.number = 0.0;
+    Trial best{change, fit_};
+    for (double const size : sizes)
+      for (double const side : {-1.0, 1.0}) {
+        change.number = side * size;
+        Trial trial = tried(change);
+        if (better(trial.fit, best.fit)) best = std::move(trial);
+      }
+    if (best.change.number != 0.0) all.push_back(refined(std::move(best)));
   }
 
   // single changes that need no number of their own, the plainer first
@@ -195,20 +208,9 @@ class Search {
     for (auto const& change : plain_changes()) all.push_back(tried(change));
     auto const n = samples_.q.cols();
     add_factors(all);
-    constexpr double tenth = 0.1;
-    for (Index const axis : axes_across_gravity())
-      for (double const tilt : {tenth, -tenth, 3.0 * tenth, -3.0 * tenth})
-        all.push_back(tried({SetupKind::gravity, axis, -1, tilt}));
-    for (Index j = 0; j < n; ++j) {
-      if (!turns(j)) continue;
-      Trial best{{SetupKind::zero, j, -1, 0.0}, fit_};
-      for (double const zero : {0.1, 0.25, 0.5, 0.8})
-        for (double const side : {-1.0, 1.0}) {
-          Trial trial = tried({SetupKind::zero, j, -1, side * zero});
-          if (better(trial.fit, best.fit)) best = std::move(trial);
-        }
-      if (best.change.number != 0.0) all.push_back(refined_zero(std::move(best)));
-    }
+    for (Index const axis : axes_across_gravity()) add_angle(all, {SetupKind::gravity, axis}, {0.1, 0.3});
+    for (Index j = 0; j < n; ++j)
+      if (turns(j)) add_angle(all, {SetupKind::zero, j}, {0.1, 0.25, 0.5, 0.8});
     return all;
   }
 
