@@ -5,8 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/robot/standard_dh.hpp"
-
 namespace torquescope {
 namespace {
 
@@ -18,38 +16,33 @@ void append_rows(Eigen::MatrixXd& to, Eigen::MatrixXd const& more) {
   to.bottomRows(more.rows()) = more;
 }
 
-// numbers that stand for a standard convention although the file says modified, or the other way round
-SerialChain of_other_convention(SerialChain chain) {
-  auto& joints = chain.joints;
-  bool const may_be_of_standard = joints.front().a == 0.0 && joints.front().alpha == 0.0;
-  if (!may_be_of_standard || joints.size() < 2) return from_standard_dh(std::move(chain));
-  // the last joint's a and alpha went into the flange; of no account for torques
-  for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
-    joints[j].a = joints[j + 1].a;
-    joints[j].alpha = joints[j + 1].alpha;
-  }
-  joints.back().a = joints.back().alpha = 0.0;
-  return chain;
-}
-
 }  // namespace
 
-void ArmSamples::add(std::vector<Motion> const& motion, std::vector<std::vector<bool>> const& moving, Index most) {
-  Index const n = motion.front().q.size(), step = std::max<Index>(1, (n + most - 1) / most), rows = (n - 1) / step + 1;
+void ArmSamples::add(std::vector<Motion> const& motion, std::vector<std::vector<bool>> const& moving, Index edge,
+                     Index most) {
+  Index const n = motion.front().q.size() - 2 * edge;
+  if (n < 2) return;
+  Index const step = std::max<Index>(1, (n + most - 1) / most), rows = (n - 1) / step + 1;
   auto const joints = static_cast<Index>(motion.size());
   ArmSamples more;
+  more.time_s.resize(rows);
+  for (Index k = 0; k < rows; ++k) more.time_s[k] = motion.front().time_s[edge + k * step];
   for (auto* channel : {&more.q, &more.dq, &more.ddq, &more.tau, &more.moves}) channel->resize(rows, joints);
   for (Index j = 0; j < joints; ++j) {
     Motion const& of = motion[static_cast<std::size_t>(j)];
     auto const& moves_j = moving[static_cast<std::size_t>(j)];
     for (Index k = 0; k < rows; ++k) {
-      more.q(k, j) = of.q[k * step];
-      more.dq(k, j) = of.dq[k * step];
-      more.ddq(k, j) = of.ddq[k * step];
-      more.tau(k, j) = of.torque[k * step];
-      more.moves(k, j) = moves_j[static_cast<std::size_t>(k * step)] ? 1.0 : 0.0;
+      Index const at = edge + k * step;
+      more.q(k, j) = of.q[at];
+      more.dq(k, j) = of.dq[at];
+      more.ddq(k, j) = of.ddq[at];
+      more.tau(k, j) = of.torque[at];
+      more.moves(k, j) = moves_j[static_cast<std::size_t>(at)] ? 1.0 : 0.0;
     }
   }
+  begins.push_back(size());
+  time_s.conservativeResize(size() + rows);
+  time_s.tail(rows) = more.time_s;
   append_rows(q, more.q);
   append_rows(dq, more.dq);
   append_rows(ddq, more.ddq);
@@ -64,7 +57,7 @@ ArmSetup setup_as_read(SerialChain const& chain) {
   return {chain, own, own, Eigen::VectorXd::Ones(n), Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n)};
 }
 
-ArmSetup changed(ArmSetup setup, SetupChange const& change) {
+ArmSetup changed(ArmSetup setup, SetupChange const& change, SerialChain otherwise) {
   Index const j = change.joint;
   auto const exchange = [&](std::vector<Index>& of) {
     std::swap(of[static_cast<std::size_t>(j)], of[static_cast<std::size_t>(change.other)]);
@@ -91,10 +84,14 @@ ArmSetup changed(ArmSetup setup, SetupChange const& change) {
       exchange(setup.torque_of);
       break;
     case SetupKind::dh_convention:
-      setup.chain = of_other_convention(std::move(setup.chain));
+      std::swap(setup.chain.gravity, otherwise.gravity);  // an earlier change may have turned it
+      std::swap(setup.chain, otherwise);
+      setup.is_of_other_convention = true;
       break;
     case SetupKind::gravity:
-      setup.chain.gravity = Eigen::AngleAxisd(change.number, Eigen::Vector3d::Unit(j)) * setup.chain.gravity;
+      setup.chain.gravity =
+          setup.chain.base.rotation.transpose() * (Eigen::AngleAxisd(change.number, Eigen::Vector3d::Unit(j)) *
+                                                   (setup.chain.base.rotation * setup.chain.gravity));
       break;
     case SetupKind::position_factor:
       if (j < 0)

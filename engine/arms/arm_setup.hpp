@@ -17,11 +17,14 @@ namespace torquescope {
 
 struct ArmSamples {
   Eigen::MatrixXd q, dq, ddq, tau;
-  Eigen::MatrixXd moves;  // 1 where the joint moves, else 0
+  Eigen::MatrixXd moves;             // 1 where the joint moves, else 0
+  Eigen::VectorXd time_s;            // on each recording's own clock
+  std::vector<Eigen::Index> begins;  // first row of each recording
 
   Eigen::Index size() const { return q.rows(); }
-  // of one recording: at most `most` samples, evenly
-  void add(std::vector<Motion> const& motion, std::vector<std::vector<bool>> const& moving, Eigen::Index most);
+  // of one recording: at most `most` samples, evenly, without `edge` samples at each end that a filter spoils
+  void add(std::vector<Motion> const& motion, std::vector<std::vector<bool>> const& moving, Eigen::Index edge,
+           Eigen::Index most);
 };
 
 enum class SetupKind {
@@ -31,8 +34,8 @@ enum class SetupKind {
   joints_exchanged,  // positions and torques of two joints
   positions_exchanged,
   torques_exchanged,
-  dh_convention,    // numbers of the robot file are standard ones, or modified ones
-  gravity,          // `number`: angle by which it is turned about axis `joint` of the base
+  dh_convention,    // numbers of the robot file are of the convention that it does not name
+  gravity,          // `number`: angle by which it is turned about axis `joint` of the file's base frame
   no_gravity,       // the torque has none: a driver took it away
   motor_side,       // torques of all joints stand before the gears of the robot file
   position_factor,  // of one joint, or of all (joint -1)
@@ -50,10 +53,12 @@ struct ArmSetup {
   SerialChain chain{};
   std::vector<Eigen::Index> position_of{}, torque_of{};
   Eigen::VectorXd position_factor{}, torque_factor{}, zero{};
+  bool is_of_other_convention = false;
 };
 
 ArmSetup setup_as_read(SerialChain const& chain);
-ArmSetup changed(ArmSetup setup, SetupChange const& change);
+// otherwise: the same robot in the other convention, for dh_convention
+ArmSetup changed(ArmSetup setup, SetupChange const& change, SerialChain otherwise = {});
 ArmSamples taken_as(ArmSamples const& samples, ArmSetup const& setup);
 
 }  // namespace torquescope

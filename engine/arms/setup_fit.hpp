@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "engine/arms/arm_setup.hpp"
+#include "engine/arms/gram_fit.hpp"
 #include "engine/robot/base_parameters.hpp"
 
 namespace torquescope {
@@ -29,7 +30,7 @@ struct SetupFit {
   double score = 0.0;          // sum of the errors' logarithms; lower is better
   double file_score = 0.0;
 
-  static constexpr double floor = 0.005;  // smaller errors are alike: filters and encoders leave as much
+  static constexpr double floor = GramUnknowns::floor;
 };
 
 // base: of the set-up's chain

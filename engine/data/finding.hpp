@@ -62,6 +62,7 @@ enum class FindingKind {
   // motion
   other_joints_move,  // detail: their columns
   arm_setup,          // detail: what is wrong with columns or robot file; line_to_write: what mends it
+  arm_changes_at,     // size: s; detail: the gain; line_to_write: what leaves the rest out
   beyond_limits,      // size: share of the samples; detail: the limits
   standstill,         // size: the whole range of the motion, SI
   stretch_left_out,   // size: s, by the job or by missing values

@@ -89,6 +89,8 @@ std::string code_of(FindingKind kind) {
       return "other_joints_move";
     case arm_setup:
       return "arm_setup";
+    case arm_changes_at:
+      return "arm_changes_at";
     case beyond_limits:
       return "beyond_limits";
     case standstill:

@@ -178,6 +178,9 @@ std::string what(Finding const& f) {
           f.detail);
     case arm_setup:
       return f.detail;
+    case arm_changes_at:
+      return fmt::format("the torque changes at {:.3g} s as with another load ({}): split the recording there", f.size,
+                         f.detail);
     case beyond_limits:
       return fmt::format("{:.3g} % of the samples are beyond {}", 100.0 * f.size, f.detail);
     case standstill:
@@ -260,6 +263,7 @@ std::string cure_of(Finding const& f) {
     case position_factor:
       return fmt::format("position_per_unit = {:.10g}", f.size * f.written);
     case arm_setup:
+    case arm_changes_at:
       return f.line_to_write;
     case beyond_limits:
       return "check the unit and the zero of the column, and the limits of the robot file";

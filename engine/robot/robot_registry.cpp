@@ -48,4 +48,12 @@ SerialChain read_linked_robot(std::filesystem::path const& path, RobotPart const
   return read_one_of(Formats::with_links, path, part);
 }
 
+std::optional<OtherConvention> read_robot_otherwise(std::filesystem::path const& path) {
+  auto const text = RobotText::read(path);
+  for (auto const& format : robot_formats())
+    if (format.accepts(text))
+      return format.read_otherwise != nullptr ? format.read_otherwise(text) : std::optional<OtherConvention>{};
+  return {};
+}
+
 }  // namespace torquescope

@@ -132,6 +132,17 @@ void choose_filter(Experiment::Parts& parts, Files const& train, Files const& un
   parts.noise_hz = suggestion.noise_hz;
 }
 
+// samples that tell of the set-up: the joint moves one way, and the job or a finding leaves none of them out
+std::vector<std::vector<bool>> telling_samples(std::vector<std::vector<bool>> moves, std::vector<Motion> const& motion,
+                                               FilterOptions const& filter) {
+  for (std::size_t j = 0; j < motion.size(); ++j) {
+    auto const left_out = left_out_samples(motion[j], parallel_cutoff_of(filter));
+    for (std::size_t k = 0; k < left_out.size(); ++k)
+      if (left_out[k]) moves[j][k] = false;
+  }
+  return moves;
+}
+
 // one recording of the arm: its rows, and into `set` what is to be said about it; into `track`, if there is one, what
 // its instruments are made from
 RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& parts, DataSet& set, ArmTrack* track,
@@ -163,7 +174,9 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
   }
   if (track != nullptr) track->moves = moves;
   constexpr Index most_samples = 1200;
-  if (samples != nullptr && !file.payload) samples->add(motion, moves, most_samples);
+  if (samples != nullptr && !file.payload)
+    samples->add(motion, telling_samples(moves, motion, parts.filter), edge_samples(parts.filter, whole.rate_hz),
+                 most_samples);
   whole.findings = joined_findings(whole.findings);
   auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter, file.payload);
   set.recordings.push_back(std::move(whole));
@@ -231,6 +244,7 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
 
 ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Payload> const& payloads) {
   SerialChain chain = read_robot(job.resolve(options.robot), {options.root, options.tip});
+  auto otherwise = read_robot_otherwise(job.resolve(options.robot));
   if (!options.gravity.empty()) {
     validate(options.gravity.size() == 3, [&] {
       return problem_at(section_or_empty(job, "model"), "gravity",
@@ -247,6 +261,7 @@ ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Paylo
   terms.drive_gains = options.drive_gains;
   std::string const sha256 = digest_of(chain);
   ArmParts arm{ArmModel(std::move(chain), terms, section_or_empty(job, "model")), options.robot, sha256};
+  arm.otherwise = std::move(otherwise);
   return arm;
 }
 

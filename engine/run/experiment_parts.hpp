@@ -28,6 +28,7 @@
 #include "engine/problem/regressor_health.hpp"
 #include "engine/problem/single_precision.hpp"
 #include "engine/problem/sufficient_statistics.hpp"
+#include "engine/robot/robot_registry.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
 #include "engine/run/rollout_parts.hpp"
@@ -51,11 +52,12 @@ struct DataSet {
 // what a job's arm is, beside its recordings
 struct ArmParts {
   ArmModel model;
-  std::string robot_file;             // as the job names it
-  std::string sha256;                 // of the chain that was read from it
-  std::vector<FilteredGram> grams{};  // of the training rows
-  NoiseLevels noise{};                // of the joints
-  ArmSamples samples{};               // of training recordings without a payload, for their set-up
+  std::string robot_file;                      // as the job names it
+  std::string sha256;                          // of the chain that was read from it
+  std::vector<FilteredGram> grams{};           // of the training rows
+  NoiseLevels noise{};                         // of the joints
+  std::optional<OtherConvention> otherwise{};  // of the robot file, for the same
+  ArmSamples samples{};                        // of training recordings without a payload, for their set-up
   // of a diagnosis
   bool keeps_channels = false;
   std::vector<RecordedArm> train{}, validate{};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/arms/link_change.hpp"
 #include "engine/arms/setup_search.hpp"
 #include "engine/data/arm_recording.hpp"
 
@@ -81,44 +82,6 @@ VectorXd order_of(std::vector<double> const& written, std::vector<Index> const& 
   return order;
 }
 
-// what the job is to say so that its columns are taken as in this set-up; keys that do not change are left out
-std::string lines_of(ArmSetup const& setup, SerialChain const& chain, RecordingOptions const& options) {
-  Index const n = chain.size();
-  ArmSetup const as_read = setup_as_read(chain);
-  VectorXd const signs = of_joints(options.joint_sign, n), zeros = of_joints(options.zero, n),
-                 torques = of_joints(options.torque_per_unit, n);
-  VectorXd sign(n), zero(n), torque(n);
-  for (Index j = 0; j < n; ++j) {
-    Index const p = setup.position_of[static_cast<std::size_t>(j)], t = setup.torque_of[static_cast<std::size_t>(j)];
-    sign[j] = setup.position_factor[j] < 0.0 ? -signs[p] : signs[p];
-    zero[j] = setup.position_factor[j] * zeros[p] + setup.zero[j];
-    torque[j] = setup.torque_factor[j] * signs[t] * torques[t] * sign[j];
-  }
-  std::vector<std::string> lines;
-  if (setup.position_of != as_read.position_of)
-    lines.push_back("position_order = " + list_of(order_of(options.position_order, setup.position_of)));
-  if (setup.torque_of != as_read.torque_of)
-    lines.push_back("torque_order = " + list_of(order_of(options.torque_order, setup.torque_of)));
-  if (sign != signs) lines.push_back("joint_sign = " + list_of(sign));
-  if (zero != zeros) lines.push_back("zero = " + list_of(zero));
-  if (torque != torques) lines.push_back("torque_per_unit = " + list_of(torque));
-  VectorXd const units = setup.position_factor.cwiseAbs();
-  if (units.minCoeff() != 1.0 || units.maxCoeff() != 1.0)
-    lines.push_back(units.minCoeff() == units.maxCoeff()
-                        ? fmt::format("position_per_unit = {:.10g}", units[0] * options.position_per_unit)
-                        : "bring all position columns into one unit");
-  if (setup.chain.gravity != chain.gravity) {
-    Eigen::Vector3d const gravity = setup.chain.base.rotation * setup.chain.gravity;
-    lines.push_back("[model] gravity = " + list_of((gravity.array().abs() < 1e-9).select(0.0, gravity)));
-  }
-  bool const is_other_convention = setup.chain.joints.front().a != chain.joints.front().a ||
-                                   setup.chain.joints.back().alpha != chain.joints.back().alpha ||
-                                   setup.chain.joints.front().alpha != chain.joints.front().alpha;
-  if (is_other_convention)
-    lines.push_back("[robot] convention = \"standard_dh\" or \"modified_dh\", in the robot file");
-  return fmt::format("{}", fmt::join(lines, "   "));
-}
-
 Finding finding_of(Experiment::Parts const& parts, FindingKind kind) {
   Finding finding{kind, Grade::warning};
   finding.recording = parts.train.recordings.front().name;
@@ -148,7 +111,68 @@ void add_limits(Experiment::Parts const& parts, std::vector<Finding>& findings) 
   }
 }
 
+// a load picked up or let go on the way
+void add_link_change(Experiment::Parts const& parts, std::vector<Finding>& findings) {
+  auto const change = find_link_change(parts.arm->samples, parts.arm->model.chain());
+  if (!change) return;
+  Finding finding = finding_of(parts, FindingKind::arm_changes_at);
+  if (change->recording < parts.train.recordings.size())
+    finding.recording = parts.train.recordings[change->recording].name;
+  finding.size = change->time_s;
+  finding.detail =
+      "error on held-out blocks: " + gain_words(change->before, change->after, parts.arm->model.joint_names());
+  constexpr double beyond_s = 1.0;  // the last sample is left out too
+  finding.line_to_write =
+      fmt::format("leave_out = [[{:.4g}, {:.4g}]]", change->time_s, std::ceil(change->end_s + beyond_s));
+  findings.push_back(std::move(finding));
+}
+
+// about the gravity of the job
+std::optional<SerialChain> chain_otherwise(ArmParts const& arm) {
+  if (!arm.otherwise) return {};
+  SerialChain chain = arm.otherwise->chain;
+  chain.gravity = arm.model.chain().gravity;
+  return chain;
+}
+
 }  // namespace
+
+std::string setup_lines(ArmSetup const& setup, SerialChain const& chain, RecordingOptions const& options,
+                        std::string const& otherwise) {
+  Index const n = chain.size();
+  ArmSetup const as_read = setup_as_read(chain);
+  VectorXd const signs = of_joints(options.joint_sign, n), zeros = of_joints(options.zero, n),
+                 torques = of_joints(options.torque_per_unit, n), delays = of_joints(options.delay_s, n);
+  VectorXd sign(n), zero(n), torque(n), delay(n);
+  for (Index j = 0; j < n; ++j) {
+    Index const p = setup.position_of[static_cast<std::size_t>(j)], t = setup.torque_of[static_cast<std::size_t>(j)];
+    sign[j] = setup.position_factor[j] < 0.0 ? -signs[p] : signs[p];
+    zero[j] = setup.position_factor[j] * zeros[p] + setup.zero[j];
+    delay[j] = delays[t];
+    torque[j] = setup.torque_factor[j] * signs[t] * torques[t] * sign[j];
+  }
+  std::vector<std::string> lines;
+  if (setup.position_of != as_read.position_of)
+    lines.push_back("position_order = " + list_of(order_of(options.position_order, setup.position_of)));
+  if (setup.torque_of != as_read.torque_of)
+    lines.push_back("torque_order = " + list_of(order_of(options.torque_order, setup.torque_of)));
+  if (sign != signs) lines.push_back("joint_sign = " + list_of(sign));
+  if (zero != zeros) lines.push_back("zero = " + list_of(zero));
+  if (torque != torques) lines.push_back("torque_per_unit = " + list_of(torque));
+  if (delay != delays) lines.push_back("delay_s = " + list_of(delay));
+  VectorXd const units = setup.position_factor.cwiseAbs();
+  if (units.minCoeff() != 1.0 || units.maxCoeff() != 1.0)
+    lines.push_back(units.minCoeff() == units.maxCoeff()
+                        ? fmt::format("position_per_unit = {:.10g}", units[0] * options.position_per_unit)
+                        : "bring all position columns into one unit");
+  if (setup.chain.gravity != chain.gravity) {
+    Eigen::Vector3d const gravity = setup.chain.base.rotation * setup.chain.gravity;
+    lines.push_back("[model] gravity = " + list_of((gravity.array().abs() < 1e-9).select(0.0, gravity)));
+  }
+  if (setup.is_of_other_convention)
+    lines.push_back(fmt::format("convention = \"{}\" in [robot] of the robot file", otherwise));
+  return fmt::format("{}", fmt::join(lines, "   "));
+}
 
 std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
   std::vector<Finding> findings;
@@ -156,8 +180,11 @@ std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOpt
   constexpr Index fewest = 200;
   if (arm.samples.size() < fewest) return findings;
   add_limits(parts, findings);
-  SetupSearch const found = search_setup(arm.samples, arm.model.chain());
-  if (found.steps.empty()) return findings;
+  SetupSearch const found = search_setup(arm.samples, arm.model.chain(), chain_otherwise(arm));
+  if (found.steps.empty()) {
+    add_link_change(parts, findings);
+    return findings;
+  }
   Finding finding = finding_of(parts, FindingKind::arm_setup);
   auto const names = arm.model.joint_names();
   for (auto const& step : found.steps) {
@@ -169,7 +196,8 @@ std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOpt
     if (!step.is_told_by_file) finding.grade = Grade::fault;
     ++finding.count;
   }
-  finding.line_to_write = lines_of(found.setup, arm.model.chain(), options);
+  finding.line_to_write =
+      setup_lines(found.setup, arm.model.chain(), options, arm.otherwise ? arm.otherwise->name : "");
   findings.push_back(std::move(finding));
   return findings;
 }

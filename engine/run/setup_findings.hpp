@@ -3,10 +3,12 @@
 //
 // Grade      a fault where the change alone halves what the fit leaves: numbers and verdicts would be wrong. A warning
 //            where the robot file alone tells it, and where positions lie beyond its limits
+// Load       where nothing is wrong with the set-up, the instant at which the links become others, as a warning
 // Line       in line_to_write: keys of [recording] and [model] with all numbers of the arm, ready to be pasted
 // Threads    free function
 // Source     arms/setup_search.hpp
 
+#include <string>
 #include <vector>
 
 #include "engine/run/experiment_parts.hpp"
@@ -15,5 +17,10 @@ namespace torquescope {
 
 // empty where the recording has a payload throughout, or the set-up is as it should be
 std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOptions const& options);
+
+// what the job is to say so that its columns are taken as in this set-up, a key a line, three blanks between them; keys
+// that do not change are left out. chain: as it is read now. otherwise: "modified_dh", of the other convention
+std::string setup_lines(ArmSetup const& setup, SerialChain const& chain, RecordingOptions const& options,
+                        std::string const& otherwise);
 
 }  // namespace torquescope

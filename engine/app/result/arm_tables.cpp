@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "engine/app/result/result_tables.hpp"
 #include "engine/app/terminal/plain_text.hpp"
@@ -58,6 +59,25 @@ std::string block_text(ResultSummary const& summary, std::vector<EstimatorSummar
 }
 
 }  // namespace
+
+std::vector<std::string> unexplained_joints(ResultSummary const& summary) {
+  constexpr double half = 0.5;
+  std::vector<std::string> sentences;
+  if (!summary.arm) return sentences;
+  for (std::size_t j = 0; j < summary.arm->joints.size(); ++j) {
+    double least = std::numeric_limits<double>::infinity();
+    for (auto const& estimator : summary.estimators) {
+      auto const& errors = summary.has_validation ? estimator.unseen_joint_relerr : estimator.joint_relerr;
+      if (j < errors.size() && errors[j] < least) least = errors[j];
+    }
+    if (!std::isfinite(least) || least <= half) continue;
+    sentences.push_back(fmt::format(
+        "joint {} ({}): no fit explains its torque, the error is {:.3g} %{}, and no other sign, order, zero or unit "
+        "that the check tries mends it: look at its columns, at their timing, and whether it moves enough",
+        j + 1, summary.arm->joints[j], 100.0 * least, summary.has_validation ? " on unseen rows" : ""));
+  }
+  return sentences;
+}
 
 std::string joint_error_table(ResultSummary const& summary, Ink const& ink) {
   constexpr std::size_t most_together = 3;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/app/result/arm_tables.hpp"
+
 namespace torquescope {
 
 namespace {
@@ -108,7 +110,8 @@ std::string result_json(ResultSummary const& summary) {
       {"data",
        {{"train", data_json(summary.train)},
         {"validate", summary.has_validation ? data_json(summary.validation) : Json(nullptr)},
-        {"health", summary.health_words}}},
+        {"health", summary.health_words},
+        {"unexplained_joints", unexplained_joints(summary)}}},
       {"runs", summary.runs()},
       {"evaluations", summary.evaluations()},
       {"estimators", estimators},

@@ -260,6 +260,7 @@ std::string warning_lines(ResultSummary const& summary, Ink const& ink) {
   for (auto const* data : {&summary.train, &summary.validation})
     for (auto const& warning : data->warnings) add(warning);
   if (!summary.health_words.empty()) add(summary.health_words);
+  for (auto const& sentence : unexplained_joints(summary)) add(sentence);
   return text.empty() ? text : text + "\n";
 }
 

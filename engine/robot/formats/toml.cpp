@@ -154,9 +154,8 @@ bool accepts(RobotText const& text) {
   return has("[robot]") || has("[[joint]]");
 }
 
-SerialChain read(RobotText const& text, RobotPart const& asked) {
-  std::vector<Problem> problems;
-  auto const sections = read_sections(text, problems);
+SerialChain chain_of(RobotText const& text, RobotSections const& sections, RobotPart const& asked,
+                     std::string const& convention, std::vector<Problem>& problems) {
   auto const& options = sections.options;
   SerialChain chain;
   if (options.urdf.empty()) {
@@ -165,7 +164,7 @@ SerialChain read(RobotText const& text, RobotPart const& asked) {
     finish(problems);
     Eigen::Vector3d const flange = Eigen::Vector3d::Map(options.flange_m.data());
     chain.flange.position = flange;
-    if (options.convention == "standard_dh") chain = from_standard_dh(std::move(chain));
+    if (convention == "standard_dh") chain = from_standard_dh(std::move(chain));
   } else {
     for (auto const* key : {"convention", "flange_m"})
       if (sections.robot.find(key))
@@ -185,11 +184,26 @@ SerialChain read(RobotText const& text, RobotPart const& asked) {
   return chain;
 }
 
+SerialChain read(RobotText const& text, RobotPart const& asked) {
+  std::vector<Problem> problems;
+  auto const sections = read_sections(text, problems);
+  return chain_of(text, sections, asked, sections.options.convention, problems);
+}
+
+std::optional<OtherConvention> read_otherwise(RobotText const& text) {
+  std::vector<Problem> problems;
+  auto const sections = read_sections(text, problems);
+  if (!sections.options.urdf.empty()) return {};
+  std::string const other = sections.options.convention == "standard_dh" ? "modified_dh" : "standard_dh";
+  return OtherConvention{other, chain_of(text, sections, {}, other, problems)};
+}
+
 }  // namespace
 
 RobotFormat toml() {
-  return {"toml", "TOML with [robot] and [[joint]]: standard or modified Denavit-Hartenberg numbers", false, accepts,
-          read};
+  return {"toml", "TOML with [robot] and [[joint]]: standard or modified Denavit-Hartenberg numbers",
+          false,  accepts,
+          read,   read_otherwise};
 }
 
 }  // namespace torquescope::formats

@@ -45,6 +45,61 @@ Problem refused(RecordingOptions const& options) {
   return {};
 }
 
+TEST(JointOptions, TurnAJointRoundWithItsTorque) {
+  auto options = arm_options();
+  options.joint_sign = {1.0, -1.0};
+  options.zero = {0.5, -0.25};
+  options.delay_s = {0.0, 0.01};
+  auto const joints = joint_options(options, names, section);
+  EXPECT_EQ(joints[0].position_per_unit, 1.0);
+  EXPECT_EQ(joints[1].position_per_unit, -1.0);
+  EXPECT_EQ(joints[1].torque_factor(), -3.0);
+  EXPECT_EQ(joints[1].zero, std::vector{-0.25});
+  EXPECT_EQ(joints[1].delay(), 0.01);
+}
+
+TEST(JointOptions, TakeColumnsInAnotherOrder) {
+  auto options = arm_options();
+  options.position_order = {2.0, 1.0};
+  auto const positions = joint_options(options, names, section);
+  EXPECT_EQ(positions[0].columns.at("position"), "q2_rad");
+  EXPECT_EQ(positions[0].columns.at("torque"), "shoulder_Nm");
+  options.position_order.clear();
+  options.torque_order = {2.0, 1.0};
+  auto const torques = joint_options(options, names, section);
+  EXPECT_EQ(torques[0].columns.at("position"), "q1_rad");
+  EXPECT_EQ(torques[0].columns.at("torque"), "elbow_Nm");
+  EXPECT_EQ(torques[0].torque_factor(), 2.0);  // of the joint, not of the column
+}
+
+TEST(JointOptions, RefuseNumbersThatFitNoArm) {
+  auto options = arm_options();
+  options.joint_sign = {1.0, 0.5};
+  EXPECT_THAT(refused(options).what, StartsWith("joint_sign holds another number"));
+  options = arm_options();
+  options.torque_order = {1.0, 1.0};
+  EXPECT_THAT(refused(options).what, StartsWith("torque_order is no order of 2 joints"));
+  options = arm_options();
+  options.zero = {0.1, 0.2, 0.3};
+  EXPECT_THAT(refused(options).what, StartsWith("zero has 3 numbers"));
+  options = arm_options();
+  options.delay_s = {0.1, 0.2, 0.3};
+  EXPECT_THAT(refused(options).what, StartsWith("delay_s has 3 numbers"));
+}
+
+// zero in rad, after unit and sign
+TEST(JointOptions, ZeroIsAddedToThePosition) {
+  auto options = arm_options();
+  auto const read = [&] {
+    return make_arm_recording(arm_table(), joint_options(options, names, section), names, section);
+  };
+  Eigen::VectorXd const plain = read().joints[1].position;
+  options.joint_sign = {1.0, -1.0};
+  options.zero = {0.0, 0.25};
+  Eigen::VectorXd const turned = read().joints[1].position;
+  EXPECT_LT((turned - (0.25 - plain.array()).matrix()).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 TEST(JointOptions, FillNumbersAndNames) {
   auto const options = joint_options(arm_options(), names, section);
   ASSERT_EQ(options.size(), 2u);
