@@ -43,14 +43,14 @@ std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regr
   for (auto const& law : scan.accepted)
     if (can_be_simulated(*law.effect, regressor) && (law.effect->is_wave() || !has(law.effect)))
       moves.push_back(law_move(*law.effect, law.shape, scales));
-  std::vector<double> const unknown;
+  std::vector<double> const no_shape;
   std::size_t const most = moves.size() + numbers.refined;
   auto const add = [&](Effect const* law, std::vector<double> const& shape) {
     if (moves.size() < most && !is_clock_bound(*law) && can_be_simulated(*law, regressor) && !has(law))
       moves.push_back(law_move(*law, shape, scales));
   };
   for (auto const& law : scan.accepted)
-    for (auto const* rival : law.rivals) add(rival, unknown);
+    for (auto const* rival : law.rivals) add(rival, no_shape);
   for (auto const& step : scan.steps)
     for (auto const& law : step.laws)
       if (law.p <= numbers.alpha) add(law.effect, law.shape);

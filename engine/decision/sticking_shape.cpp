@@ -7,12 +7,12 @@
 namespace torquescope {
 namespace {
 
-constexpr double apart = 5.0;     // from one size to the next, at the most
-constexpr double widest = 100.0;  // from the smallest to the largest: what is smaller is the sign itself
+constexpr double most_ratio = 5.0;  // from one size to the next, at the most
+constexpr double widest = 100.0;    // from the smallest to the largest: what is smaller is the sign itself
 
 std::vector<double> sizes(double least, double most) {
   double const from = std::max(least, most / widest);
-  auto const steps = std::max(1.0, std::ceil(std::log(most / from) / std::log(apart)));
+  auto const steps = std::max(1.0, std::ceil(std::log(most / from) / std::log(most_ratio)));
   std::vector<double> all;
   for (double k = 0.0; k <= steps; k += 1.0) all.push_back(from * std::pow(most / from, k / steps));
   return all;

@@ -54,7 +54,7 @@ std::string several_recordings_sentence(DiagnosisInput const& input) {
 
 LeftOut told(LeftOutRows const& rows) {
   return {rows.time_share(), rows.energy_share(), std::sqrt(rows.energy / rows.torque),
-          std::sqrt(rows.after / rows.torque)};
+          std::sqrt(rows.after / rows.torque), rows.torque};
 }
 
 class JointWork {

@@ -171,7 +171,8 @@ void read_joint_attributes(StoredObjects const& in, std::string const& group, Jo
   joint.train_floor_relerr = in.number(group, "train_floor_relerr");
   auto const left_out = [&](std::string const& name) -> LeftOut {
     return {in.number(group, name + "_left_out_time"), in.number(group, name + "_left_out_energy"),
-            in.number(group, name + "_relerr_all_rows"), in.number(group, "augmented_" + name + "_relerr_all_rows")};
+            in.number(group, name + "_relerr_all_rows"), in.number(group, "augmented_" + name + "_relerr_all_rows"),
+            in.number(group, name + "_torque_energy_all_rows")};
   };
   joint.train_left_out = left_out("train");
   joint.validation_left_out = left_out("validation");
@@ -199,6 +200,8 @@ void read_joint_attributes(StoredObjects const& in, std::string const& group, Jo
   joint.mismatch_rms = in.number(group, "mismatch_rms");
   joint.left_rms = in.number(group, "left_rms");
   joint.power_sentence = in.text(group, "power_sentence");
+  joint.timing_sentence = in.text(group, "timing_sentence");
+  joint.validation_torque_energy = in.number(group, "validation_torque_energy");
 }
 
 JointDiagnosis read_joint(StoredObjects const& in, std::string const& group) {

@@ -209,6 +209,7 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
     writer.attribute(group, name + "_left_out_energy", left_out.energy);
     writer.attribute(group, name + "_relerr_all_rows", left_out.relerr);
     writer.attribute(group, "augmented_" + name + "_relerr_all_rows", left_out.augmented_relerr);
+    writer.attribute(group, name + "_torque_energy_all_rows", left_out.torque_energy);
   };
   write_left_out("train", joint.train_left_out);
   write_left_out("validation", joint.validation_left_out);
@@ -241,6 +242,8 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "mismatch_rms", joint.mismatch_rms);
   writer.attribute(group, "left_rms", joint.left_rms);
   writer.attribute(group, "power_sentence", joint.power_sentence);
+  writer.attribute(group, "timing_sentence", joint.timing_sentence);
+  writer.attribute(group, "validation_torque_energy", joint.validation_torque_energy);
 }
 
 void write_joint(ResultWriter& writer, std::string const& group, JointDiagnosis const& joint) {

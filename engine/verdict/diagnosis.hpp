@@ -166,6 +166,7 @@ struct ForwardSimulation {
 struct LeftOut {
   double time = unknown, energy = unknown;              // shares; energy: of the baseline's residual over all rows
   double relerr = unknown, augmented_relerr = unknown;  // over all rows
+  double torque_energy = unknown;                       // of all rows
 };
 
 // the paired test on rows that nothing was fitted to (held_out_gain.hpp)
@@ -224,7 +225,7 @@ struct JointDiagnosis {
   std::string rows = "moving one way";  // or "with reversals": what errors and pictures are of
   std::vector<std::string> remarks{};   // what the motion closed or merged: sentences, in the reason, not stored
   std::string reference_remark{};       // that no reference was recorded: a sentence of the reason, not stored
-  std::string timing_sentence{};        // what was done to the torque channel's time; in the reason, not stored
+  std::string timing_sentence{};        // what was done to the torque channel's time; in the reason
   std::string loop_source;              // "identified", "approximated", "tracking"
   std::string loop_remark;
   double torque_noise = unknown, disturbance = unknown;
@@ -232,11 +233,11 @@ struct JointDiagnosis {
       unknown;  // share of the level of dry friction per square root of a second (friction_wander.hpp)
   std::int64_t shape_evaluations = 0;  // spent on shapes, over all steps of the selection
   std::size_t twins = 0;
-  double omnibus_z = 0.0, omnibus_p = 1.0;  // of the whole mismatch, at the first step
-  double mismatch_rms = 0.0;                // torque beyond the twins
-  double mismatch_share = unknown;          // the same over the torque's rms, rows weighed; in the reason, not stored
-  double left_rms = 0.0;                    // the same with the accepted effects in the model
-  std::vector<double> twin_energy{};        // residual energy of each twin over that of the recording
+  double omnibus_z = 0.0, omnibus_p = 1.0;    // of the whole mismatch, at the first step
+  double mismatch_rms = 0.0;                  // torque beyond the twins
+  double mismatch_share = unknown;            // the same over the torque's rms, rows weighed; in the reason, not stored
+  double left_rms = 0.0;                      // the same with the accepted effects in the model
+  std::vector<double> twin_energy{};          // residual energy of each twin over that of the recording
   std::optional<DecisionAccount> decision{};  // on all samples, where the job asks for it
   std::string
       power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/quantity_text.hpp"
+#include "engine/words/all_sample_errors.hpp"
 #include "engine/words/name_list.hpp"
 
 namespace torquescope {
@@ -61,17 +62,6 @@ std::string joints_clause(std::vector<JointDiagnosis> const& joints, Verdict ver
          (are_numbers ? "joints " + name_list(numbers, "and") : name_list(who, "and"));
 }
 
-// over joints, each by the energy of its torque; NaN where one is not known
-double over_joints(std::vector<JointDiagnosis> const& joints, double JointDiagnosis::*relerr) {
-  double error = 0.0, torque = 0.0;
-  for (auto const& joint : joints) {
-    double const own = std::isfinite(joint.*relerr) ? joint.*relerr : joint.validation_relerr;
-    error += own * own * joint.validation_torque_energy;
-    torque += joint.validation_torque_energy;
-  }
-  return std::sqrt(error / torque);
-}
-
 }  // namespace
 
 std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& facts) {
@@ -121,11 +111,10 @@ std::string arm_reason_sentence(Diagnosis const& diagnosis) {
     text = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front()))) + text.substr(1) + ".";
   if (diagnosis.arm)
     for (auto const& effect : diagnosis.arm->effects) text += (text.empty() ? "" : " ") + effect.sentence;
-  double const before = over_joints(diagnosis.joints, &JointDiagnosis::validation_relerr),
-               after = over_joints(diagnosis.joints, &JointDiagnosis::augmented_validation_relerr);
-  if (!std::isfinite(before)) return text;
-  text += fmt::format(" Unseen relerr over all joints {}", percent_text(before));
-  if (names_physics(diagnosis.verdict)) text += fmt::format(" to {}", percent_text(after));
+  ArmError const whole = validation_error_of_arm(diagnosis.joints);
+  if (!whole.is_known()) return text;
+  text += fmt::format(" Validation relerr over all joints and samples {}", percent_text(whole.before));
+  if (names_physics(diagnosis.verdict)) text += fmt::format(" to {}", percent_text(whole.after));
   return text + ".";
 }
 

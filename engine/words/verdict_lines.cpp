@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "engine/base/quantity_text.hpp"
+#include "engine/words/all_sample_errors.hpp"
+#include "engine/words/error_words.hpp"
 #include "engine/words/name_list.hpp"
 #include "engine/words/sentences.hpp"
 
@@ -32,9 +34,10 @@ std::string title_of(NamedEffect const& effect) {
   return is_short ? title : in_words(effect.name);
 }
 
+constexpr std::size_t three = 3;
+
 // its name and its first numbers, the first without a name of its own
-std::string with_numbers(NamedEffect const& effect) {
-  constexpr std::size_t most = 3;
+std::string with_numbers(NamedEffect const& effect, std::size_t most) {
   std::string text = title_of(effect);
   for (std::size_t k = 0; k < std::min(most, effect.parameters.size()); ++k)
     text += k == 0 ? " " + number_of(effect.parameters[k])
@@ -43,21 +46,28 @@ std::string with_numbers(NamedEffect const& effect) {
 }
 
 // strongest first, three at most
-std::string class_of(NamedEffect const& effect) {
+std::string class_of(NamedEffect const& effect, std::size_t most_numbers = three) {
   constexpr std::size_t most = 2;  // beside the first
-  std::string text = with_numbers(effect);
+  std::string text = with_numbers(effect, most_numbers);
   for (std::size_t k = 0; k < std::min(most, effect.equivalent.size()); ++k)
     text += " | " + in_words(effect.equivalent[k]);
   if (effect.equivalent.size() > most) text += fmt::format(" | {} more", effect.equivalent.size() - most);
   return text;
 }
 
-std::string names_of(JointDiagnosis const& joint, bool with_classes) {
+// one with three numbers, two with two, more with one each; three effects at most. Equal p are printed once
+std::string named_text(JointDiagnosis const& joint) {
+  auto const& effects = joint.effects;
+  std::size_t const shown = std::min(three, effects.size()),
+                    most_numbers = effects.size() < three ? three + 1 - effects.size() : 1;
   std::string text;
-  for (auto const& effect : joint.effects) {
-    text += (text.empty() ? "" : "; ") + (with_classes ? class_of(effect) : with_numbers(effect));
-    text += "   " + p_text(effect.p, effect.p_is_bound, least_p(joint.twins));
+  for (std::size_t k = 0; k < shown; ++k) {
+    auto const p_of = [&](NamedEffect const& one) { return p_text(one.p, one.p_is_bound, least_p(joint.twins)); };
+    bool const is_last = k + 1 == shown;
+    text += (text.empty() ? "" : "; ") + class_of(effects[k], most_numbers);
+    if (is_last || p_of(effects[k]) != p_of(effects[k + 1])) text += "   " + p_of(effects[k]);
   }
+  if (effects.size() > shown) text += fmt::format("; and {} more", effects.size() - shown);
   return text;
 }
 
@@ -93,10 +103,10 @@ std::string what_of(Diagnosis const& diagnosis, JointDiagnosis const& joint, Ver
       return none_text(joint);
     case Verdict::named:
     case Verdict::one_of_class:
-      return names_of(joint, true);
+      return named_text(joint);
     case Verdict::partly: {
       std::string const share = share_text(joint.explained_share, joint.explained_low, joint.explained_high);
-      return (share.empty() ? "" : share + " of the mismatch by ") + names_of(joint, true);
+      return (share.empty() ? "" : share + " of the mismatch by ") + named_text(joint);
     }
     case Verdict::unexplained:
       return unexplained_text(joint);
@@ -104,6 +114,8 @@ std::string what_of(Diagnosis const& diagnosis, JointDiagnosis const& joint, Ver
     case Verdict::data_fault:
       break;
   }
+  bool const is_of_arm = diagnosis.joints.size() > 1;
+  if (is_of_arm && !joint.reason.empty()) return without_full_stop(joint.reason);
   std::string const finding = without_full_stop(diagnosis.finding);
   if (finding.empty()) return without_full_stop(diagnosis.reason);
   return finding + (diagnosis.way_out.empty() ? "" : "; " + without_full_stop(diagnosis.way_out));
@@ -117,46 +129,42 @@ std::string where_missing(std::vector<JointDiagnosis> const& joints) {
   return names.empty() ? "at any joint" : "at " + name_list(names, "and");
 }
 
-struct Errors {
-  double before = unknown, after = unknown;
-
-  bool is_known() const { return std::isfinite(before); }
-  std::string text() const {
-    bool const has_after = std::isfinite(after) && after != before;
-    return has_after ? fmt::format("{} -> {}", percent_text(before), percent_text(after)) : percent_text(before);
-  }
-};
-
-// over all samples, where rows were left out and their errors are known
-Errors over_all(LeftOut const& left_out, double relerr, double augmented) {
-  bool const leaves_out = left_out.time > 0.0;
-  return leaves_out ? Errors{left_out.relerr, left_out.augmented_relerr} : Errors{relerr, augmented};
-}
-
-std::string both_text(Errors const& training, Errors const& validation) {
+std::string both_text(ErrorPair const& training, ErrorPair const& validation) {
   std::string text;
   if (training.is_known()) text += "training " + training.text();
   if (validation.is_known()) text += (text.empty() ? "" : ", ") + ("validation " + validation.text());
   return text;
 }
 
+// "on rows that move one way, 65 % of training and 70 % of validation"
+std::string rows_phrase(JointDiagnosis const& joint) {
+  std::string text = joint.rows == "with reversals" ? "on rows in motion" : "on rows that move one way";
+  std::vector<std::string> shares;
+  auto const share = [&](char const* of, LeftOut const& left_out) {
+    if (std::isfinite(left_out.time)) shares.push_back(percent_text(1.0 - left_out.time) + of);
+  };
+  share(" of training", joint.train_left_out);
+  share(" of validation", joint.validation_left_out);
+  return shares.empty() ? text : text + ", " + name_list(shares, "and");
+}
+
+void add_noise(std::string& line, double noise) {
+  if (!line.empty() && std::isfinite(noise)) line += ", noise " + percent_text(noise);
+}
+
 }  // namespace
 
 VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joint, Verdict verdict) {
-  VerdictLines lines{what_of(diagnosis, joint, verdict), {}, {}};
-  Errors const training{joint.train_relerr, joint.augmented_train_relerr};
-  Errors const validation{joint.validation_relerr, joint.augmented_validation_relerr};
-  std::string const all = both_text(over_all(joint.train_left_out, training.before, training.after),
-                                    over_all(joint.validation_left_out, validation.before, validation.after));
+  VerdictLines lines{what_of(diagnosis, joint, verdict), {}, {}, {}};
+  std::string const all = both_text(training_error(joint), validation_error(joint));
+  std::string const of_rows = both_text({joint.train_relerr, joint.augmented_train_relerr},
+                                        {joint.validation_relerr, joint.augmented_validation_relerr});
+  bool const are_all = joint.rows == "all" || (joint.train_left_out.time == 0.0 && all == of_rows);
   if (!all.empty()) lines.errors = "error, all samples: " + all;
-  double const left_out = std::max(joint.train_left_out.time, joint.validation_left_out.time);
-  if (left_out > 0.0) {
-    lines.rows =
-        fmt::format("on the {} that move one way: {}", percent_text(1.0 - left_out), both_text(training, validation));
-    if (std::isfinite(joint.floor_relerr)) lines.rows += ", noise " + percent_text(joint.floor_relerr);
-  } else if (!lines.errors.empty() && std::isfinite(joint.floor_relerr)) {
-    lines.errors += ", noise " + percent_text(joint.floor_relerr);
-  }
+  if (!are_all && !of_rows.empty()) lines.rows = fmt::format("error {}: {}", rows_phrase(joint), of_rows);
+  add_noise(lines.rows.empty() ? lines.errors : lines.rows, joint.floor_relerr);
+  for (auto const& sentence : {joint.timing_sentence, unseen_is_other_sentence(joint)})
+    if (!sentence.empty()) lines.remarks.push_back(sentence);
   return lines;
 }
 
@@ -165,21 +173,11 @@ VerdictLines arm_lines(Diagnosis const& diagnosis) {
   if (diagnosis.arm)
     for (auto const& effect : diagnosis.arm->effects) lines.what += (lines.what.empty() ? "" : "; ") + class_of(effect);
   if (lines.what.empty()) lines.what = where_missing(diagnosis.joints);
-  double energy = 0.0, before = 0.0, after = 0.0;
-  for (auto const& joint : diagnosis.joints) {
-    Errors const errors =
-        over_all(joint.validation_left_out, joint.validation_relerr, joint.augmented_validation_relerr);
-    double const weight = joint.validation_torque_energy;
-    if (!errors.is_known() || !std::isfinite(weight)) continue;
-    double const now = std::isfinite(errors.after) ? errors.after : errors.before;
-    energy += weight;
-    before += weight * errors.before * errors.before;
-    after += weight * now * now;
-  }
-  if (energy > 0.0) {
-    Errors const whole{std::sqrt(before / energy), std::sqrt(after / energy)};
-    lines.errors = "error, all joints and samples: validation " + whole.text();
-  }
+  ArmError const whole = validation_error_of_arm(diagnosis.joints);
+  if (whole.is_known())
+    lines.errors = fmt::format("error, {}: validation {}",
+                               whole.is_mean_of_joints ? "all samples, mean of the joints" : "all joints and samples",
+                               whole.text());
   return lines;
 }
 

@@ -44,11 +44,8 @@ VerdictWords words_of(Verdict verdict) {
 }
 
 // a fault of a channel beside physics
-bool has_fault(Diagnosis const& diagnosis) {
-  if (!names_physics(diagnosis.verdict)) return false;
-  return std::any_of(diagnosis.joints.begin(), diagnosis.joints.end(), [](JointDiagnosis const& joint) {
-    return std::any_of(joint.effects.begin(), joint.effects.end(), is_fault);
-  });
+bool has_fault(JointDiagnosis const& joint, Verdict verdict) {
+  return names_physics(verdict) && std::any_of(joint.effects.begin(), joint.effects.end(), is_fault);
 }
 
 bool needs_care(Verdict verdict) {
@@ -117,13 +114,18 @@ ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& pa
 
 namespace {
 
-// of_few_rows: rows that hold less than half of the residual's energy say nothing of the rest
-std::string mark_of(Verdict verdict, bool of_few_rows, bool utf8, Ink const& ink, std::string const& whose = {}) {
+std::string mark_of(Verdict verdict, std::string const& more, bool utf8, Ink const& ink, std::string const& whose) {
   VerdictWords const words = words_of(verdict);
-  bool const is_bounded = of_few_rows && verdict == Verdict::none;
-  std::string const lead = fmt::format("{} {}{}{}", utf8 ? words.mark : "*", whose.empty() ? "" : whose + "  ",
-                                       words.word, is_bounded ? " ON THE ROWS LOOKED AT" : "");
+  std::string const lead =
+      fmt::format("{} {}{}{}", utf8 ? words.mark : "*", whose.empty() ? "" : whose + "  ", words.word, more);
   return needs_care(verdict) ? ink.warning(lead) : ink.bold(lead);
+}
+
+std::string mark_of(JointDiagnosis const& joint, Verdict verdict, bool utf8, Ink const& ink, std::string const& whose) {
+  // rows that hold less than half of the residual's energy say nothing of the rest
+  bool const is_bounded = verdict == Verdict::none && looks_at_less_than_half(joint);
+  return mark_of(verdict, is_bounded ? " ON THE ROWS LOOKED AT" : "", utf8, ink, whose) +
+         (has_fault(joint, verdict) ? ink.warning(" + DATA FAULT") : "");
 }
 
 // a number stays with its percent sign, a p with its value: wrap() breaks at spaces only
@@ -138,6 +140,7 @@ std::string lines_text(std::string const& lead, VerdictLines const& lines) {
   std::string text = line_text(lead + "  ", lines.what);
   if (!lines.errors.empty()) text += line_text(indent, lines.errors);
   if (!lines.rows.empty()) text += line_text(indent, lines.rows);
+  for (auto const& remark : lines.remarks) text += line_text(indent, remark);
   return text;
 }
 
@@ -154,9 +157,9 @@ bool is_arm(Diagnosis const& diagnosis) { return diagnosis.joints.size() > 1; }
 std::string arm_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
   VerdictLines lines = arm_lines(diagnosis);
   if (lines.what.empty()) lines.what = printable(diagnosis.finding);
-  std::string text = lines_text(mark_of(diagnosis.verdict, false, utf8, ink, "whole arm"), lines);
+  std::string text = lines_text(mark_of(diagnosis.verdict, "", utf8, ink, "whole arm"), lines);
   for (JointDiagnosis const* joint : by_weight(diagnosis.joints))
-    text += lines_text(mark_of(joint->verdict, looks_at_less_than_half(*joint), utf8, ink, which_joint(*joint)),
+    text += lines_text(mark_of(*joint, joint->verdict, utf8, ink, which_joint(*joint)),
                        verdict_lines(diagnosis, *joint, joint->verdict));
   return text;
 }
@@ -165,11 +168,11 @@ std::string arm_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
 
 std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
   if (is_arm(diagnosis)) return arm_text(diagnosis, utf8, ink);
-  bool const of_few_rows = std::any_of(diagnosis.joints.begin(), diagnosis.joints.end(), looks_at_less_than_half);
-  std::string lead = mark_of(diagnosis.verdict, of_few_rows, utf8, ink);
-  if (has_fault(diagnosis)) lead += ink.warning(" + DATA FAULT");
-  if (diagnosis.joints.empty()) return line_text(lead + "  ", diagnosis.reason);
-  return lines_text(lead, verdict_lines(diagnosis, diagnosis.joints.front(), diagnosis.verdict));
+  if (diagnosis.joints.empty())
+    return line_text(mark_of(diagnosis.verdict, "", utf8, ink, "") + "  ", diagnosis.reason);
+  JointDiagnosis const& joint = diagnosis.joints.front();
+  return lines_text(mark_of(joint, diagnosis.verdict, utf8, ink, ""),
+                    verdict_lines(diagnosis, joint, diagnosis.verdict));
 }
 
 std::string advice_text(Diagnosis const& diagnosis) {

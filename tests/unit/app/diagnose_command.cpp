@@ -109,7 +109,7 @@ TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
   Outcome const outcome = run({"--progress", "none"});
   EXPECT_EQ(outcome.code, ExitCode::ok);
   EXPECT_THAT(outcome.out, HasSubstr("NAMED  Stribeck friction 0.35 N m [0.34, 0.37]"));
-  EXPECT_THAT(outcome.out, HasSubstr("error, all samples: training 11.8 % -> 6.1 %"));
+  EXPECT_THAT(outcome.out, HasSubstr("error on rows in motion: training 11.8 % -> 6.1 %"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("\nwhere  velocity")));
   EXPECT_THAT(outcome.out, HasSubstr("\nnext   "));
   EXPECT_THAT(outcome.out, Not(HasSubstr("wrote")));

@@ -38,8 +38,8 @@ TEST(DiagnosisText, IsThePictureOfTheSpecification) {
             R"(◍ ONE OF A CLASS  Stribeck friction 0.35 N m [0.34, 0.37], stribeck_speed 0.060
                   rad/s [0.055, 0.065], stribeck_exponent 1.0 [0.91, 1.1] |
                   presliding   p < 0.005
-    error, all samples: training 11.8 % -> 6.1 %, validation 12.1 % -> 6.2 %,
-    noise 6.0 %
+    error on rows in motion: training 11.8 % -> 6.1 %, validation 12.1 % ->
+    6.2 %, noise 6.0 %
 next   triangular strokes of 0.2, 1 and 5 mrad: would tell stribeck and
        presliding apart
 )");

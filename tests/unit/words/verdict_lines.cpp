@@ -26,6 +26,7 @@ JointDiagnosis joint_with(std::vector<NamedEffect> effects) {
   joint.effects = std::move(effects);
   joint.train_relerr = 0.05;
   joint.augmented_train_relerr = 0.01;
+  joint.rows = "all";
   return joint;
 }
 
@@ -37,7 +38,7 @@ TEST(VerdictLines, SayNumbersWithIntervalsAndShortTimesInMilliseconds) {
   Diagnosis const diagnosis;
   VerdictLines const lines = verdict_lines(diagnosis, joint_with({stribeck, late}), Verdict::named);
   EXPECT_EQ(lines.what,
-            "Stribeck friction 0.35 A [0.24, 0.46], stribeck_speed 0.080 rad/s [0.070, 0.090]   p < 0.005; "
+            "Stribeck friction 0.35 A [0.24, 0.46], stribeck_speed 0.080 rad/s [0.070, 0.090]; "
             "delay 3.8 ms [3.1, 4.4]   p < 0.005");
   EXPECT_EQ(lines.errors, "error, all samples: training 5.0 % -> 1.0 %");
   EXPECT_EQ(lines.rows, "");
@@ -53,6 +54,7 @@ TEST(VerdictLines, ShowThreeMembersOfAClassAtMost) {
 
 TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
   JointDiagnosis joint = joint_with({effect_of("stribeck", "Stribeck friction")});
+  joint.rows = "moving one way";
   joint.validation_relerr = 0.08;
   joint.augmented_validation_relerr = 0.02;
   joint.floor_relerr = 0.015;
@@ -60,8 +62,52 @@ TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
   joint.validation_left_out = {0.35, 0.8, 0.13, 0.1};
   VerdictLines const lines = verdict_lines({}, joint, Verdict::named);
   EXPECT_EQ(lines.errors, "error, all samples: training 20.0 % -> 18.0 %, validation 13.0 % -> 10.0 %");
-  EXPECT_THAT(lines.rows, StartsWith("on the 65.0 % that move one way: training 5.0 % -> 1.0 %, validation 8.0 %"));
-  EXPECT_THAT(lines.rows, HasSubstr("noise 1.5 %"));
+  EXPECT_EQ(lines.rows,
+            "error on rows that move one way, 75.0 % of training and 65.0 % of validation: "
+            "training 5.0 % -> 1.0 %, validation 8.0 % -> 2.0 %, noise 1.5 %");
+  joint.rows = "with reversals";
+  EXPECT_THAT(verdict_lines({}, joint, Verdict::named).rows, StartsWith("error on rows in motion, 75.0 %"));
+}
+
+TEST(VerdictLines, CallNoErrorOneOfAllSamplesThatIsNot) {
+  JointDiagnosis joint = joint_with({});
+  joint.rows = "moving one way";
+  joint.augmented_train_relerr = unknown;
+  Diagnosis given_up;
+  given_up.finding = "the joint stands still";
+  VerdictLines const lines = verdict_lines(given_up, joint, Verdict::insufficient);
+  EXPECT_EQ(lines.what, "the joint stands still");
+  EXPECT_EQ(lines.errors, "");
+  EXPECT_EQ(lines.rows, "error on rows that move one way: training 5.0 %");
+}
+
+TEST(VerdictLines, TellAJointOfAnArmItsOwnFault) {
+  Diagnosis arm;
+  arm.finding = "joint 1 stands still";
+  arm.joints = {joint_with({}), joint_with({})};
+  arm.joints[1].reason = "The torque of joint 2 does not move.";
+  EXPECT_EQ(verdict_lines(arm, arm.joints[1], Verdict::data_fault).what, "The torque of joint 2 does not move");
+}
+
+TEST(VerdictLines, NameThreeEffectsWithOneNumberEachAndCountTheRest) {
+  std::vector<NamedEffect> four;
+  for (char const* const name : {"stribeck", "cogging", "spring", "backlash"}) {
+    four.push_back(effect_of(name, name));
+    four.back().parameters = {{name, "N m", 0.1}, {"shape", "rad", 2.0}};
+  }
+  EXPECT_EQ(verdict_lines({}, joint_with(four), Verdict::named).what,
+            "stribeck 0.10 N m; cogging 0.10 N m; spring 0.10 N m   p < 0.005; and 1 more");
+}
+
+TEST(VerdictLines, SayWhatWasDoneToAChannelAndThatAValidationIsOfAnotherKind) {
+  JointDiagnosis joint = joint_with({});
+  joint.timing_sentence = "The torque was moved by 2 ms.";
+  joint.validation_relerr = 0.4;
+  joint.augmented_train_relerr = unknown;
+  auto const remarks = verdict_lines({}, joint, Verdict::none).remarks;
+  ASSERT_EQ(remarks.size(), 2U);
+  EXPECT_EQ(remarks[0], "The torque was moved by 2 ms.");
+  EXPECT_THAT(remarks[1], HasSubstr("40.0 % there, 5.0 % here"));
 }
 
 TEST(VerdictLines, SumAnArmOverItsJointsByTheEnergyOfTheirTorques) {
@@ -75,6 +121,9 @@ TEST(VerdictLines, SumAnArmOverItsJointsByTheEnergyOfTheirTorques) {
   }
   // sqrt((1 * 0.09 + 8 * 0.01) / 9) = 0.1374
   EXPECT_THAT(arm_lines(diagnosis).errors, StartsWith("error, all joints and samples: validation 13.7 % -> 6.9 %"));
+  // forces and torques have no common energy: sqrt((0.09 + 0.01) / 2) = 0.2236
+  diagnosis.joints[0].unit_torque = "N";
+  EXPECT_EQ(arm_lines(diagnosis).errors, "error, all samples, mean of the joints: validation 22.4 % -> 11.2 %");
 }
 
 }  // namespace verdict_lines_test
