@@ -7,6 +7,7 @@
 #include "engine/health/finding_text.hpp"
 #include "engine/run/json_values.hpp"
 #include "engine/run/loop_json.hpp"
+#include "engine/words/verdict_lines.hpp"
 
 namespace torquescope {
 
@@ -206,6 +207,7 @@ Json finding_json(Finding const& finding) {
 std::string diagnosis_json(Diagnosis const& diagnosis) {
   Json document = {{"schema", 1},
                    {"verdict", word(diagnosis.verdict)},
+                   {"headline", headline_of(diagnosis)},
                    {"reason", diagnosis.reason},
                    {"findings", json_list(diagnosis.findings, finding_json)},
                    {"joints", json_list(diagnosis.joints, joint_json)}};

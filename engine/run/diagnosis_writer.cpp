@@ -6,6 +6,7 @@
 #include "engine/run/model_code.hpp"
 #include "engine/run/table_columns.hpp"
 #include "engine/store/scale_datasets.hpp"
+#include "engine/words/verdict_lines.hpp"
 
 namespace torquescope {
 
@@ -273,6 +274,7 @@ void write_joint(ResultWriter& writer, std::string const& group, JointDiagnosis 
 void write_diagnosis(ResultWriter& writer, Diagnosis const& diagnosis) {
   std::string const group = "/diagnosis";
   writer.attribute(group, "verdict", word(diagnosis.verdict));
+  writer.attribute(group, "headline", headline_of(diagnosis));
   writer.attribute(group, "reason", diagnosis.reason);
   writer.attribute(group, "finding", diagnosis.finding);
   writer.attribute(group, "way_out", diagnosis.way_out);

@@ -39,9 +39,14 @@ constexpr std::size_t three = 3;
 // its name and its first numbers, the first without a name of its own
 std::string with_numbers(NamedEffect const& effect, std::size_t most) {
   std::string text = title_of(effect);
-  for (std::size_t k = 0; k < std::min(most, effect.parameters.size()); ++k)
-    text += k == 0 ? " " + number_of(effect.parameters[k])
-                   : fmt::format(", {} {}", effect.parameters[k].name, number_of(effect.parameters[k]));
+  std::size_t told_numbers = 0;
+  for (ParameterEstimate const& one : effect.parameters) {
+    bool const is_first = told_numbers == 0;
+    // a second one of the same unit is another component of the same size: a sine beside its cosine
+    if (told_numbers == most || (!is_first && one.unit == effect.parameters.front().unit)) continue;
+    text += is_first ? " " + number_of(one) : fmt::format(", {} {}", one.name, number_of(one));
+    ++told_numbers;
+  }
   return text;
 }
 
@@ -55,11 +60,13 @@ std::string class_of(NamedEffect const& effect, std::size_t most_numbers = three
   return text;
 }
 
-// one with three numbers, two with two, more with one each; three effects at most. Equal p are printed once
-std::string named_text(JointDiagnosis const& joint) {
+// with how many numbers each of some effects is told: one line holds a few
+std::size_t numbers_each(std::size_t effects) { return effects < three ? three + 1 - effects : 1; }
+
+// three effects at most. Equal p are printed once
+std::string named_text(JointDiagnosis const& joint, std::size_t most_numbers) {
   auto const& effects = joint.effects;
-  std::size_t const shown = std::min(three, effects.size()),
-                    most_numbers = effects.size() < three ? three + 1 - effects.size() : 1;
+  std::size_t const shown = std::min(three, effects.size());
   std::string text;
   for (std::size_t k = 0; k < shown; ++k) {
     auto const p_of = [&](NamedEffect const& one) { return p_text(one.p, one.p_is_bound, least_p(joint.twins)); };
@@ -103,10 +110,10 @@ std::string what_of(Diagnosis const& diagnosis, JointDiagnosis const& joint, Ver
       return none_text(joint);
     case Verdict::named:
     case Verdict::one_of_class:
-      return named_text(joint);
+      return named_text(joint, numbers_each(joint.effects.size()));
     case Verdict::partly: {
       std::string const share = share_text(joint.explained_share, joint.explained_low, joint.explained_high);
-      return (share.empty() ? "" : share + " of the mismatch by ") + named_text(joint);
+      return (share.empty() ? "" : share + " of the mismatch by ") + named_text(joint, 1);
     }
     case Verdict::unexplained:
       return unexplained_text(joint);
@@ -117,8 +124,9 @@ std::string what_of(Diagnosis const& diagnosis, JointDiagnosis const& joint, Ver
   bool const is_of_arm = diagnosis.joints.size() > 1;
   if (is_of_arm && !joint.reason.empty()) return without_full_stop(joint.reason);
   std::string const finding = without_full_stop(diagnosis.finding);
-  if (finding.empty()) return without_full_stop(diagnosis.reason);
-  return finding + (diagnosis.way_out.empty() ? "" : "; " + without_full_stop(diagnosis.way_out));
+  if (!finding.empty()) return finding;
+  // a channel that is at fault is named like physics
+  return joint.effects.empty() ? without_full_stop(diagnosis.reason) : named_text(joint, three);
 }
 
 // "at joint 2 and joint 3", of an arm without a law of the whole
@@ -127,6 +135,25 @@ std::string where_missing(std::vector<JointDiagnosis> const& joints) {
   for (auto const& joint : joints)
     if (joint.verdict != Verdict::none) names.push_back(which_joint(joint));
   return names.empty() ? "at any joint" : "at " + name_list(names, "and");
+}
+
+// "load dependent friction", "unexplained"
+std::string short_answer(JointDiagnosis const& joint) {
+  std::vector<std::string> titles;
+  for (auto const& effect : joint.effects) titles.push_back(title_of(effect));
+  return titles.empty() ? in_words(word(joint.verdict)) : name_list(titles, "and");
+}
+
+// "joint 2: load dependent friction; joint 3: unexplained", three joints at most
+std::string joints_with_answers(std::vector<JointDiagnosis> const& joints) {
+  std::vector<JointDiagnosis const*> open;
+  for (auto const& joint : joints)
+    if (joint.verdict != Verdict::none) open.push_back(&joint);
+  std::string text;
+  for (std::size_t k = 0; k < std::min(three, open.size()); ++k)
+    text += fmt::format("{}{}: {}", k == 0 ? "" : "; ", which_joint(*open[k]), short_answer(*open[k]));
+  if (open.size() > three) text += fmt::format("; {} more joints", open.size() - three);
+  return open.empty() ? "no joint lacks anything" : text;
 }
 
 std::string both_text(ErrorPair const& training, ErrorPair const& validation) {
@@ -163,6 +190,8 @@ VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joi
   if (!all.empty()) lines.errors = "error, all samples: " + all;
   if (!are_all && !of_rows.empty()) lines.rows = fmt::format("error {}: {}", rows_phrase(joint), of_rows);
   add_noise(lines.rows.empty() ? lines.errors : lines.rows, joint.floor_relerr);
+  bool const is_of_arm = diagnosis.joints.size() > 1;
+  if (!is_of_arm && !diagnosis.way_out.empty()) lines.remarks.push_back(diagnosis.way_out);
   for (auto const& sentence : {joint.timing_sentence, unseen_is_other_sentence(joint)})
     if (!sentence.empty()) lines.remarks.push_back(sentence);
   return lines;
@@ -179,6 +208,13 @@ VerdictLines arm_lines(Diagnosis const& diagnosis) {
                                whole.is_mean_of_joints ? "all samples, mean of the joints" : "all joints and samples",
                                whole.text());
   return lines;
+}
+
+std::string headline_of(Diagnosis const& diagnosis) {
+  if (diagnosis.joints.empty()) return without_full_stop(diagnosis.reason);
+  bool const has_laws = diagnosis.arm && !diagnosis.arm->effects.empty();
+  if (diagnosis.joints.size() > 1) return has_laws ? arm_lines(diagnosis).what : joints_with_answers(diagnosis.joints);
+  return what_of(diagnosis, diagnosis.joints.front(), diagnosis.verdict);
 }
 
 }  // namespace torquescope

@@ -28,4 +28,7 @@ VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joi
 // of an arm: the laws of the whole, and the error over all joints and samples
 VerdictLines arm_lines(Diagnosis const& diagnosis);
 
+// what of the whole diagnosis, in one line: what terminal, JSON and page begin with
+std::string headline_of(Diagnosis const& diagnosis);
+
 }  // namespace torquescope

@@ -166,14 +166,13 @@ class Verdict(unittest.TestCase):
         verdict = words_of_diagnosis.verdict(support.study("named"))
         self.assertEqual(
             verdict["sentence"],
-            "Joint 1 loses 0.35 N m extra below 0.12 rad/s in both directions: Stribeck friction. "
-            "Joint 1 deviates by up to 0.060 N m from the model around 12 waves per turn: "
-            "cogging torque of the motor.",
+            "Stribeck friction 0.35 N m [0.34, 0.37], stribeck_speed 0.060 rad/s [0.055, 0.065] | presliding; "
+            "cogging 0.060 N m [0.057, 0.062], cogging_order 12 1/rad [12, 12]   p < 0.005",
         )
         evidence = verdict["evidence"].replace("\u00a0", " ")
         for words in (
-            "Stribeck friction: p < 0.005; presliding cannot be excluded.",
-            "Cogging torque of the motor: p < 0.005.",
+            "Stribeck friction (p < 0.005; presliding cannot be excluded).",
+            "cogging torque of the motor (p < 0.005).",
             "floor 6.0 %.",
             "200 clean twins",
         ):
@@ -191,18 +190,34 @@ class Verdict(unittest.TestCase):
 
     def test_numbers_are_those_of_the_file(self):
         shown = [(number, unit) for number, unit, _ in words_of_diagnosis.big_numbers(joint("named"))]
-        self.assertEqual(shown, [("12 → 6.2 %", ""), ("6.0 %", ""), ("96 %", ""), ("0", "of 200")])
+        self.assertEqual(shown, [("12 → 6.1 %", ""), ("12 → 6.2 %", ""), ("6.0 %", ""), ("96 %", "")])
         self.assertAlmostEqual(diagnosed.share_closed(joint("named")), (0.1213 - 0.0623) / (0.1213 - 0.0601))
 
     def test_a_part_says_how_much_and_shows_what_is_left(self):
         verdict = words_of_diagnosis.verdict(support.study("partly"))
         self.assertEqual((verdict["word"], verdict["tone"]), ("Missing physics partly explained", "blue"))
-        self.assertTrue(verdict["sentence"].startswith("Stribeck and cogging explain 71 % (60 to 79 %) of what is "))
+        self.assertTrue(verdict["sentence"].startswith("71 % (60 to 79 %) of the mismatch by Stribeck friction 0.35"),
+                        verdict["sentence"])
         self.assertIn(("71 %", "", "of what is missing on held-out rows is explained; 95 %: 60 % to 79 %"),
                       words_of_diagnosis.big_numbers(joint("partly")))
         for words in ("stribeck speed", "What is left", "and is not explained"):
             self.assertTrue(words in read_by_a_person("partly"), words)
         self.assertFalse("What is left" in read_by_a_person("named"))
+
+    def test_errors_of_all_samples_stand_alone(self):
+        """No floor and no gap of other rows beside them."""
+        whole = dataclasses.replace(joint("named"), rows="moving one way", train_relerr_all_rows=0.2,
+                                    augmented_train_relerr_all_rows=0.15, validation_relerr_all_rows=0.3,
+                                    augmented_validation_relerr_all_rows=0.25)
+        self.assertEqual(words_of_diagnosis.big_numbers(whole),
+                         [("20 → 15 %", "", "error in training, all samples"),
+                          ("30 → 25 %", "", "error in validation, all samples"),
+                          ("0", "of 200", "clean twins look like this")])
+
+    def test_headlines_are_short(self):
+        for kind in support.DIAGNOSES:
+            words = words_of_diagnosis.verdict(support.study(kind))["sentence"].split()
+            self.assertLessEqual(len([word for word in words if word not in ("|", "N", "m")]), 25, kind)
 
     def test_below_the_floor_there_is_no_gap(self):
         at_floor = dataclasses.replace(joint("named"), augmented_validation_relerr=0.0485, floor_relerr=0.049)
@@ -269,7 +284,7 @@ class Verdict(unittest.TestCase):
 
     def test_what_was_not_measured_is_left_out(self):
         self.assertEqual(
-            words_of_diagnosis.big_numbers(joint("insufficient")), [("12 %", "", "error of the baseline in training")]
+            words_of_diagnosis.big_numbers(joint("insufficient")), [("12 %", "", "error in training, rows moving one way")]
         )
         for kind in support.DIAGNOSES:
             found = re.findall(r"\b[nN][aA][nN]\b|\bNone\b|\binf\b", read_by_a_person(kind))

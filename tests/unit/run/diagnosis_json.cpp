@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 // all keys, values left out: a list holds the pattern of its elements
 Json const pattern = Json::parse(R"({
-  "schema": 1, "verdict": "", "reason": "", "findings": [],
+  "schema": 1, "verdict": "", "headline": "", "reason": "", "findings": [],
   "joints": [{
     "joint": 1, "name": "", "twins": 0,
     "baseline": {"parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}],

@@ -110,6 +110,17 @@ TEST(VerdictLines, SayWhatWasDoneToAChannelAndThatAValidationIsOfAnotherKind) {
   EXPECT_THAT(remarks[1], HasSubstr("40.0 % there, 5.0 % here"));
 }
 
+TEST(Headline, OfAnArmNamesTheJointsThatLackSomething) {
+  Diagnosis arm;
+  arm.joints = {joint_with({}), joint_with({effect_of("stribeck", "Stribeck friction: falls with speed")}),
+                joint_with({})};
+  for (int j = 0; j < 3; ++j) arm.joints[static_cast<std::size_t>(j)].joint = j + 1;
+  EXPECT_EQ(headline_of(arm), "no joint lacks anything");
+  arm.joints[1].verdict = Verdict::named;
+  arm.joints[2].verdict = Verdict::unexplained;
+  EXPECT_EQ(headline_of(arm), "joint 2: Stribeck friction; joint 3: unexplained");
+}
+
 TEST(VerdictLines, SumAnArmOverItsJointsByTheEnergyOfTheirTorques) {
   Diagnosis diagnosis;
   for (double const error : {0.3, 0.1}) {

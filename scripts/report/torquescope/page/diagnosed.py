@@ -214,6 +214,27 @@ def is_below_floor(error, floor):
     return error < floor / 1.02
 
 
+def leaves_out(joint):
+    """Whether joint.train_relerr and its kin are of a part of the samples, and the errors of all are known."""
+    return joint.rows != "all" and math.isfinite(joint.train_relerr_all_rows)
+
+
+def told_errors(joint):
+    """[(before, after, caption)] of training and validation: of all samples where they are known, else of the rows that
+    were looked at, which the caption says. after: NaN where nothing was put into the model."""
+    if leaves_out(joint):
+        rows = "all samples"
+        errors = [(joint.train_relerr_all_rows, joint.augmented_train_relerr_all_rows),
+                  (joint.validation_relerr_all_rows, joint.augmented_validation_relerr_all_rows)]
+    else:
+        rows = {"all": "all samples", "with reversals": "rows in motion"}.get(joint.rows, f"rows {joint.rows}")
+        errors = [(joint.train_relerr, joint.augmented_train_relerr),
+                  (joint.validation_relerr, joint.augmented_validation_relerr)]
+    has = has_after(joint)
+    return [(before, after if has else math.nan, f"error {where}, {rows}")
+            for (before, after), where in zip(errors, ("in training", "in validation")) if math.isfinite(before)]
+
+
 def unseen_errors(joint):
     """(before, after, floor) on the unseen recording, or in training without one."""
     if math.isfinite(joint.validation_relerr):

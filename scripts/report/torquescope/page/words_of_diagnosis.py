@@ -22,13 +22,12 @@ _HOW_SURE = re.compile(r" \(([^()]*p [<=][^()]*)\)(?=\.$)")
 
 
 def verdict(study):
-    """mark, word, tone, sentence (what, where, how much), evidence (how sure, what it buys): all of the reason, set in
-    two sizes."""
+    """mark, word, tone, sentence (what is missing, with its numbers), evidence: the whole reason, in small."""
     found = study.diagnosis
     mark, word, tone = VERDICTS.get(found.verdict, ("◌", diagnosed.plain(found.verdict), "ochre"))
     # the class that keeps the verdict from a single name
     several = [1 + len(effect.equivalent) for joint in found.joints for effect in joint.effects if effect.equivalent]
-    headlines, evidence = _set(found)
+    headlines, evidence = ([found.headline], [found.reason, *_replicates(found)]) if found.headline else _set(found)
     if found.verdict == "none" and any(diagnosed.looks_at_less_than_half(joint) for joint in found.joints):
         word += " on the rows looked at"
     word = word.format(count=q.count_word(several[0]) if several else "several")
@@ -69,10 +68,12 @@ def _set(found):
                 evidence.append(_capital(f"{of}{sure[1]}."))
         else:
             evidence.append(sentence)
+    return headlines, evidence + _replicates(found)
+
+
+def _replicates(found):
     twins = max((joint.twins for joint in found.joints), default=0)
-    if twins and "twins" not in found.reason:
-        evidence.append(f"p from {q.whole(twins)} clean twins.")
-    return headlines, evidence
+    return [f"p from {q.whole(twins)} clean twins."] if twins and "twins" not in found.reason else []
 
 
 def _capital(text):
@@ -88,15 +89,9 @@ def head(study):
 
 def big_numbers(joint):
     """[(number, unit, caption)]: at most four, without what was not measured."""
+    found = [(_before_after(before, after), "", caption) for before, after, caption in diagnosed.told_errors(joint)]
     before, after, floor = diagnosed.unseen_errors(joint)
-    unseen = math.isfinite(joint.validation_relerr)
-    where = "on the unseen recording" if unseen else "in training"
-    found = []
-    if diagnosed.has_after(joint) and math.isfinite(after):
-        found.append((f"{q.number(100 * before, 2)} → {q.percent(after)}", "", f"error {where}"))
-    elif math.isfinite(before):
-        found.append((q.percent(before), "", f"error of the baseline {where}"))
-    if math.isfinite(floor):
+    if math.isfinite(floor) and not diagnosed.leaves_out(joint):
         error = after if diagnosed.has_after(joint) and math.isfinite(after) else before
         reached = diagnosed.is_at_floor(error, floor)
         found.append(
@@ -108,7 +103,7 @@ def big_numbers(joint):
                 else (q.percent(floor), "", "floor: what a complete model would leave")
             )
         )
-    closed = diagnosed.share_closed(joint)
+    closed = math.nan if diagnosed.leaves_out(joint) else diagnosed.share_closed(joint)
     if math.isfinite(joint.explained_share):
         found.append((q.percent(joint.explained_share), "",
                       f"of what is missing on held-out rows is explained{_interval_words(joint)}"))
@@ -117,7 +112,11 @@ def big_numbers(joint):
     as_far = diagnosed.twins_as_far(joint)
     if as_far is not None:
         found.append((q.whole(as_far), f"of {q.whole(joint.twins)}", "clean twins look like this"))
-    return found
+    return found[:4]
+
+
+def _before_after(before, after):
+    return f"{q.number(100 * before, 2)} → {q.percent(after)}" if math.isfinite(after) else q.percent(before)
 
 
 def _interval_words(joint):

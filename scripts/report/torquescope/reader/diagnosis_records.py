@@ -183,7 +183,7 @@ class Joint:
     budget_missing_physics: float
     budget_unexplained: float
     budget_noise: float
-    rows: str  # "moving one way" or "with reversals": what errors and pictures are of
+    rows: str  # "moving one way", "with reversals" or "all": what errors and pictures are of
     loop_source: str
     loop_remark: str
     torque_noise: float
@@ -224,6 +224,7 @@ class WholeArm:
 @dataclass
 class Diagnosis:
     verdict: str  # "none", "named", "class", "partly", "unexplained", "insufficient", "data_fault"
+    headline: str  # what is missing with its numbers, in one line; "" in files before 28 Nov 2026
     reason: str
     finding: str
     way_out: str

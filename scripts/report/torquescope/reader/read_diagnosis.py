@@ -24,7 +24,7 @@ UNKNOWN = math.nan
 def read_diagnosis(group):
     """The Diagnosis from the group /diagnosis (a read_result.Group)."""
     joints = [_joint(getattr(group, f"joint_{number}")) for number in range(1, group.joints + 1)]
-    texts = {key: group.get(key, "") for key in ("verdict", "reason", "finding", "way_out")}
+    texts = {key: group.get(key, "") for key in ("verdict", "headline", "reason", "finding", "way_out")}
     if len(joints) == 1 and not joints[0].verdict:  # the file says it once
         joints[0].verdict, joints[0].reason = texts["verdict"], texts["reason"]
     json = str(group.verdict_json[0]) if "verdict_json" in group else ""
