@@ -43,6 +43,12 @@ bool overlap(Span const& a, Span const& b) {
 }  // namespace
 
 std::map<std::string, std::string> clocks_of_columns(RawTable const& table) {
+  if (!table.clocks.empty()) {
+    std::map<std::string, std::string> by_length;
+    for (std::size_t c = 0; c < table.names.size(); ++c)
+      if (table.names[c] != table.clocks[c]) by_length[table.names[c]] = table.clocks[c];
+    return by_length;
+  }
   std::map<std::string, std::string> clocks;
   std::vector<Span> spans;
   std::string clock;

@@ -4,6 +4,7 @@
 // Clock      runs forwards in every row that it has, its rows begin at the first one, and its name says time, or X, or
 //            is that of another clock with another number behind "#"; it has a column behind it that is no clock
 // Blocks     two clocks or more whose stretches of time overlap in more than half of the shorter one
+// Lengths    a table whose columns have several knows the clocks (block_lengths.hpp)
 // Threads    free function
 
 #include <map>

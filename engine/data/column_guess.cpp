@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/base/order_statistic.hpp"
 #include "engine/data/clock_blocks.hpp"
 #include "engine/data/columns.hpp"
 #include "engine/data/joint_numbers.hpp"
@@ -90,6 +91,24 @@ std::vector<std::string> labels_of(std::vector<LikelyColumn> const& likely, Labe
 }  // namespace
 
 namespace {
+
+// of the position or speed that says how a joint moves; without the outermost rows, which may be sentinels
+double travel(RawTable const& table, std::string const& column) {
+  constexpr double outermost = 0.02;  // of the rows, at either end
+  std::vector<double> values;
+  for (double value : values_of(table, column))
+    if (!std::isnan(value)) values.push_back(value);
+  if (values.empty()) return 0.0;
+  auto const left_out = static_cast<std::size_t>(outermost * static_cast<double>(values.size()));
+  auto const at_rank = [&](std::size_t rank) {
+    return kth_smallest(
+        [&](auto const& visit) {
+          for (double value : values) visit(value);
+        },
+        rank);
+  };
+  return at_rank(values.size() - 1 - left_out) - at_rank(left_out);
+}
 
 // all that may serve as a channel, of any joint
 struct Candidates {
@@ -200,7 +219,7 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn
   std::vector<double> ranges;
   for (auto const& each : joints) {
     auto const lead = pick(table, all.leads, label, each);
-    ranges.push_back(lead.most - lead.least);
+    ranges.push_back(lead.column.empty() ? 0.0 : travel(table, lead.column));
     if (!lead.column.empty()) guess.positions.push_back(lead.column);
   }
   if (guess.joint > guess.joints) return guess;
@@ -208,12 +227,13 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn
   auto const largest = std::max_element(ranges.begin(), ranges.end());
   auto const moves = [&](double range) { return range > hardly * *largest; };
   guess.moving_joints = static_cast<std::size_t>(std::count_if(ranges.begin(), ranges.end(), moves));
-  // nobody asked for one: the first whose columns change at all
+  // nobody asked for one: the first that moves under a torque that changes
   for (std::size_t k = 0; joint == 0 && k < joints.size(); ++k) {
-    auto const its_torque = pick_of(all.torques, joints[k]);
-    bool const can_be_fitted = ranges[k] > 0 && (torque == TorqueColumn::optional || !its_torque.is_constant);
+    bool const can_be_fitted =
+        moves(ranges[k]) && (torque == TorqueColumn::optional || !pick_of(all.torques, joints[k]).is_constant);
     if (!can_be_fitted) continue;
     guess.joint = k + 1;
+    guess.passes_over_others = k > 0;
     break;
   }
   guess.joint_that_moves =

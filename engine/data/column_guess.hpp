@@ -41,14 +41,15 @@ struct ColumnGuess {
   std::size_t moving_joints = 1;         // of them: over a twentieth of the largest range, and more
   std::vector<NumberShift> shifts{};     // columns of one joint that have different numbers
   std::size_t joint_that_moves = 1;      // `joint`, or where that hardly moves the one with the largest range
+  bool passes_over_others = false;       // nobody asked for a joint, and those before `joint` cannot be fitted
 };
 
 // columns that a person named, by channel: position, torque, reference, time
 using ChosenColumns = std::map<std::string, std::string>;
 
 // named: these serve whatever their names say; they exist
-// joint: from 1; 0 for that of a named position or torque, else the first that can be fitted. One beyond the file's
-// gives no position and no torque
+// joint: from 1; 0 for that of a named position or torque, else the first that moves under a torque that
+// changes. One beyond the file's gives no position and no torque
 // torque: optional takes no column for it
 ColumnGuess guess_columns(RawTable const& table, std::size_t joint = 0, TorqueColumn torque = TorqueColumn::required,
                           ChosenColumns const& named = {});

@@ -254,10 +254,6 @@ constexpr std::array entries{Entry{"stamp", time_, 100},
                              Entry{"角", filler},
                              Entry{"raw", WordKind::raw}};
 
-}  // namespace column_words
-
-namespace column_words {
-
 std::optional<ColumnWord> as_written(std::string_view word) {
   auto const found = std::find_if(entries.begin(), entries.end(), [&](auto const& e) { return e.word == word; });
   return found == entries.end() ? std::nullopt : std::optional(ColumnWord{found->kind, found->weight});

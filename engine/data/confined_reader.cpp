@@ -15,7 +15,8 @@ std::string packed(RawTable const& table) {
   for (auto const& column : table.columns) out.numbers(column);
   out.whole(static_cast<std::int64_t>(table.unusable.size()));
   for (auto const& column : table.unusable) out.text(column.name).text(column.reason).whole(column.line);
-  out.texts(table.units).texts(table.remarks);
+  out.texts(table.units).texts(table.remarks).texts(table.clocks);
+  for (std::size_t length : table.lengths) out.whole(static_cast<std::int64_t>(length));
   return std::move(out).take();
 }
 
@@ -33,6 +34,8 @@ RawTable unpacked(std::string_view bytes) {
   }
   table.units = in.texts();
   table.remarks = in.texts();
+  table.clocks = in.texts();
+  for (std::size_t c = 0; c < table.clocks.size(); ++c) table.lengths.push_back(static_cast<std::size_t>(in.whole()));
   return table;
 }
 

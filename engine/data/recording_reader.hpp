@@ -72,6 +72,10 @@ struct RawTable {
   std::vector<std::string> units{};          // as the file writes them, one per column ("rad/s", ""); or none at all
   std::vector<std::string> remarks{};        // sentences: what the reader did on its own
   bool has_merged_clocks = false;            // rows of several clocks in turn (own_clocks.hpp)
+  // of a file whose signals have several lengths, each with a clock: per column the values it has (NaN stands behind
+  // them) and its clock; else empty (block_lengths.hpp)
+  std::vector<std::size_t> lengths{};
+  std::vector<std::string> clocks{};
 };
 
 // one per file in readers/; chosen by content, never by extension

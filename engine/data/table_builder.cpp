@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "engine/base/contract.hpp"
 #include "engine/base/error.hpp"
+#include "engine/data/block_lengths.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/file_bytes.hpp"
 
@@ -67,6 +69,38 @@ std::size_t TableBuilder::common_length() const {
   return longest_shared > 0 ? longest_shared : count_of_length.rbegin()->first;
 }
 
+namespace {
+
+std::string other_length(std::size_t values, std::size_t samples) {
+  constexpr std::size_t a_signal = 16;  // less is a parameter
+  auto const text = fmt::format("has {} values where the signals have {}", values, samples);
+  return values < a_signal ? text : fmt::format("{}, and no time stamps of its own: a vector of {}", text, values);
+}
+
+}  // namespace
+
+// Columns that serve, by their length: of the samples first, then of other lengths with a clock. With several the clock
+// of each stands first
+std::vector<std::vector<std::size_t>> TableBuilder::blocks() const {
+  std::map<std::size_t, std::vector<std::size_t>> of_length;
+  for (std::size_t c = 0; c < table_.columns.size(); ++c) of_length[table_.columns[c].size()].push_back(c);
+  std::vector<std::vector<std::size_t>> kept{of_length.at(common_length())};
+  auto const clock = clock_among(table_.names, table_.columns, kept.front());
+  if (!clock) return kept;
+  std::size_t const longest = of_length.rbegin()->first;
+  if (longest * table_.columns.size() > most_table_values) return kept;  // all are filled up to one length
+  for (auto const& [length, block] : of_length) {
+    auto const own = length == common_length() ? std::nullopt : clock_among(table_.names, table_.columns, block);
+    bool const serves = own && block.size() > 1 && run_together(table_.columns[*clock], table_.columns[*own]);
+    if (!serves) continue;
+    kept.push_back(block);
+    std::stable_partition(kept.back().begin(), kept.back().end(), [&](std::size_t c) { return c == *own; });
+  }
+  if (kept.size() > 1)
+    std::stable_partition(kept.front().begin(), kept.front().end(), [&](std::size_t c) { return c == *clock; });
+  return kept;
+}
+
 RawTable TableBuilder::finish() && {
   validate(!table_.columns.empty(), [&] {
     auto problem = bad_data(fmt::format("{} holds no columns of numbers", table_.path), table_.path, 0,
@@ -76,18 +110,28 @@ RawTable TableBuilder::finish() && {
     if (problem.notes.size() > 8) problem.notes.resize(8);
     return problem;
   });
-  std::size_t const length = common_length();
+  auto const kept = blocks();
+  std::size_t const length = table_.columns[kept.front().front()].size();
   RawTable result{table_.path, table_.sha256, {}, {}, {}, std::move(table_.unusable)};
   result.remarks = std::move(table_.remarks);
-  for (std::size_t c = 0; c < table_.columns.size(); ++c) {
-    if (table_.columns[c].size() == length) {
-      result.names.push_back(std::move(table_.names[c]));
+  std::size_t longest = length;
+  for (auto const& block : kept) longest = std::max(longest, table_.columns[block.front()].size());
+  std::vector<bool> is_kept(table_.columns.size(), false);
+  for (auto const& block : kept) {
+    std::string const clock = table_.names[block.front()];
+    for (std::size_t c : block) {
+      is_kept[c] = true;
+      if (kept.size() > 1) {
+        result.lengths.push_back(table_.columns[c].size());
+        result.clocks.push_back(clock);
+        table_.columns[c].resize(longest, std::numeric_limits<double>::quiet_NaN());
+      }
+      result.names.push_back(table_.names[c]);
       result.columns.push_back(std::move(table_.columns[c]));
-    } else {
-      result.unusable.push_back(
-          {table_.names[c], fmt::format("has {} values where the signals have {}", table_.columns[c].size(), length)});
     }
   }
+  for (std::size_t c = 0; c < table_.columns.size(); ++c)
+    if (!is_kept[c]) result.unusable.push_back({table_.names[c], other_length(table_.columns[c].size(), length)});
   return result;
 }
 

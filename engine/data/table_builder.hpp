@@ -1,8 +1,8 @@
 #pragma once
 // Collects named columns of a binary file, whose variables need not have one length, into a RawTable of equal lengths.
 //
-// The samples are the longest length that two columns share (a file has signals and, beside them, parameters); the rest
-// becomes unusable with a reason.
+// The samples are the longest length that two columns share (a file has signals and, beside them, parameters), and
+// every other length that has a clock of its own (block_lengths.hpp); the rest becomes unusable with a reason.
 //
 // Errors     Error 65 when nothing is left, or when all columns together exceed most_values
 
@@ -33,6 +33,7 @@ class TableBuilder {
 
  private:
   std::size_t common_length() const;
+  std::vector<std::vector<std::size_t>> blocks() const;
 
   RawTable table_;
   std::uint64_t most_values_;

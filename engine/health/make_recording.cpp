@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "engine/data/block_lengths.hpp"
 #include "engine/data/columns.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/gaps.hpp"
@@ -330,9 +331,13 @@ void report_left_out(Examination& exam, std::vector<Stretch> const& stretches) {
 Recording make_recording(RawTable const& whole, RecordingOptions const& options, Section const& section,
                          OtherJoints others, TorqueColumn torque) {
   check_options(options, section);
-  std::optional<RawTable> merged_clocks;
-  if (!options.clocks.empty()) merged_clocks = on_one_clock(whole, options, section, torque);
-  RawTable const& table = merged_clocks ? *merged_clocks : whole;
+  std::optional<RawTable> made;
+  if (!whole.lengths.empty()) check_block_lengths(whole, options);
+  if (!options.clocks.empty())
+    made = on_one_clock(whole, options, section, torque);
+  else if (!whole.lengths.empty())
+    made = block_of(whole, pick_channels(whole, options, section, torque).begin()->second.column);
+  RawTable const& table = made ? *made : whole;
   Examination exam{table, options, section, pick_channels(table, options, section, torque)};
   check_rows(table);
   auto missing_words = missing_values(exam.channels, table, options);

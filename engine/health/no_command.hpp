@@ -15,6 +15,8 @@
 namespace torquescope {
 
 void examine_constant_reference(Examination& exam);  // before registers are decoded: a stop code looks like one
-void examine_copied_reference(Examination& exam);    // with reference and position in one unit
+// One value far beyond all others: in most rows the column is not used, in fewer these values are missing
+void take_out_stop_codes(Examination& exam);
+void examine_copied_reference(Examination& exam);  // with reference and position in one unit
 
 }  // namespace torquescope

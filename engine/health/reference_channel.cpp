@@ -1,8 +1,5 @@
 #include "engine/health/reference_channel.hpp"
 
-#include <limits>
-#include <optional>
-
 #include "engine/data/known_factors.hpp"
 #include "engine/data/levels.hpp"
 
@@ -35,59 +32,7 @@ Moments moments_of(std::vector<double> const& q, std::vector<double> const& r) {
   return moments;
 }
 
-// the value that stands for "no command": far beyond all others and there again and again
-std::optional<double> stop_code_of(std::vector<double> const& values) {
-  constexpr double far_beyond = 20.0;      // ranges of all others
-  constexpr std::size_t fewest_held = 10;  // fewer are wrong rows
-  for (bool const is_above : {true, false}) {
-    double extreme = is_above ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
-    for (double value : values)
-      if (std::isfinite(value)) extreme = is_above ? std::max(extreme, value) : std::min(extreme, value);
-    std::vector<double> others;
-    std::size_t held = 0;
-    for (double value : values) {
-      if (value == extreme)
-        ++held;
-      else
-        others.push_back(value);
-    }
-    double const range = range_of(others);
-    if (known_rows(others).empty()) return {};  // a constant: no_command.hpp
-    double nearest = std::numeric_limits<double>::infinity();
-    for (double value : others)
-      if (std::isfinite(value)) nearest = std::min(nearest, std::fabs(value - extreme));
-    if (held >= fewest_held && range > 0.0 && nearest > far_beyond * range) return extreme;
-  }
-  return {};
-}
-
 }  // namespace
-
-void take_out_stop_codes(Examination& exam) {
-  constexpr double mostly = 0.5;
-  if (!exam.has("reference")) return;
-  auto& values = exam.values("reference");
-  if (known_rows(values).empty()) {
-    exam.add(FindingKind::reference_constant, Grade::warning, Repair::channel_unused, "reference", {}, missing);
-    exam.channels.erase("reference");
-    return;
-  }
-  auto const code = stop_code_of(values);
-  if (!code) return;
-  std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < values.size(); ++row)
-    if (values[row] == *code) rows.push_back(row);
-  std::size_t const known = known_rows(values).size();
-  if (static_cast<double>(rows.size()) < mostly * static_cast<double>(known)) {
-    for (std::size_t row : rows) values[row] = missing;
-    exam.add(FindingKind::reference_constant, Grade::warning, Repair::left_out, "reference", rows, *code);
-    return;
-  }
-  bool const is_everywhere = rows.size() == known;
-  exam.add(FindingKind::reference_constant, Grade::warning, Repair::channel_unused, "reference",
-           is_everywhere ? std::vector<std::size_t>() : rows, *code);
-  exam.channels.erase("reference");
-}
 
 void examine_reference(Examination& exam) {
   if (!exam.has("reference")) return;

@@ -12,10 +12,6 @@
 
 namespace torquescope {
 
-// A reference of one value in every row, or in most of them one far beyond all others, is no command: the column is not
-// used. In fewer rows those values are missing
-void take_out_stop_codes(Examination& exam);
-
 // requires the position unwrapped
 void examine_reference(Examination& exam);
 

@@ -11,6 +11,13 @@ std::string shift_words(NumberShift const& shift) {
                      shift.position);
 }
 
+std::string passed_over_words(ColumnGuess const& columns) {
+  if (!columns.passes_over_others) return {};
+  if (columns.joint == 2) return "the first that moves: joint 1 hardly moves, or no torque of it changes";
+  return fmt::format("the first that moves: joints 1 to {} hardly move, or no torque of theirs changes",
+                     columns.joint - 1);
+}
+
 std::string look_words(ColumnLook const& look) {
   auto const what = [&]() -> std::string {
     switch (look.look) {

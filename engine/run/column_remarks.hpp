@@ -12,6 +12,9 @@ namespace torquescope {
 // "joints are counted from different numbers: "tau1" belongs to "q0""
 std::string shift_words(NumberShift const& shift);
 
+// why the joint that nobody asked for is not the first, or ""
+std::string passed_over_words(ColumnGuess const& columns);
+
 // why a column that looks like the reference is none, or ""
 std::string unused_reference_words(RecordingGuess const& guess);
 

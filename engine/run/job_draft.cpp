@@ -217,6 +217,8 @@ void list_guesses(JobDraft& draft, RecordingGuess const& train) {
     draft.guesses.push_back(fmt::format("joint {} of {}; --joint N takes another, by number or name ({})",
                                         columns.joint, columns.joints,
                                         fmt::join(names_of_joints(columns.positions), ", ")));
+  if (columns.passes_over_others)
+    draft.guesses.push_back(fmt::format("joint {} is {}", columns.joint, passed_over_words(columns)));
   if (auto const why = unused_reference_words(train); !why.empty()) draft.guesses.push_back(why);
   for (auto const& shift : columns.shifts) draft.guesses.push_back(shift_words(shift));
 }

@@ -179,10 +179,11 @@ class RecordingDraft {
         warn(fmt::format("joint {} hardly moves beside joint {}: --joint {} takes that one", joints.joint,
                          joints.joint_that_moves, joints.joint_that_moves));
       text_.comment(fmt::format("The file has {} joints; this is joint {} (torquescope init --joint N takes another).",
-                                train_.columns.joints, train_.columns.joint));
-      if (train_.columns.moving_joints > 1)
+                                joints.joints, joints.joint));
+      if (joints.passes_over_others) text_.comment(fmt::format("It is {}.", passed_over_words(joints)));
+      if (joints.moving_joints > 1)
         text_.comment(fmt::format("{} of them move: what they do to this joint's torque is no part of this model.",
-                                  train_.columns.moving_joints));
+                                  joints.moving_joints));
       for (auto const& shift : joints.shifts) text_.comment(shift_words(shift) + ".");
     }
     for (auto const& look : train_.looks) text_.comment(look_words(look));

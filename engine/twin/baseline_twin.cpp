@@ -1,5 +1,7 @@
 #include "engine/twin/baseline_twin.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -123,7 +125,30 @@ RecordedLoop loop_to_try(InLoop const& in_loop, TrackedJoint const& joint, Filte
   return recorded_loop(in_loop.recording, joint, filter, in_loop.needed_torque);
 }
 
+// the channels of this recording that its source renews less often than the log writes: "q" at 66.7 Hz, "tau" at 50 Hz
+std::string slow_channels(Recording const& recording) {
+  std::string list;
+  for (auto const& finding : recording.findings)
+    if (finding.kind == FindingKind::slow_source)
+      list += fmt::format("{}\"{}\" at {:.4g} Hz", list.empty() ? "" : ", ", finding.column, finding.size);
+  return list;
+}
+
+// A loop that was fitted between the readings of a drive may hold no joint, and nothing is wrong with the columns then
+Problem runaway_of_slow_source(Recording const& recording, std::string const& channels) {
+  Problem problem{ExitCode::bad_data,
+                  fmt::format("{}: the log writes at {:.4g} Hz what the drive renews less often ({}), and no loop "
+                              "between its readings holds the fitted joint",
+                              recording.name, recording.rate_hz, channels)};
+  problem.help =
+      "the parameters of `torquescope run` are those of one row a reading; for a diagnosis read position and torque "
+      "from the drive as often as the log writes";
+  return problem;
+}
+
 Problem runaway(Recording const& recording) {
+  if (auto const channels = slow_channels(recording); !channels.empty())
+    return runaway_of_slow_source(recording, channels);
   if (recording.reference.size() == recording.position.size()) {
     Problem problem{ExitCode::bad_data, recording.name + ": the fitted joint runs away from the measured motion"};
     problem.help =

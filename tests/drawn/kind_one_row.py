@@ -34,11 +34,7 @@ def draw(rng, folder):
             return None if int(place.group(1)) == row + 2 else f"{case}: {place.group(0)}, and it is line {row + 2}"
         if "single wrong rows" in text or "spikes" in text:
             return None
-        got = run.parameters()
-        for name in ("inertia", "viscous", "coulomb"):
-            true = getattr(joint, name)
-            if abs(got[name] - true) > TOLERANCE * true:
-                return f"{case}: {name} {got[name]:.4g}, true {true:.4g}, and not a word"
-        return None
+        wrong = run.wrong_parameters(joint, TOLERANCE)
+        return f"{case}: {wrong}, and not a word" if wrong else None
 
     return judge

@@ -50,14 +50,7 @@ def draw(rng, folder):
             return f"{case}: check says {said or check.text[-300:]}"
         if check.topics("fault"):
             return f"{case}: check finds {check.topics('fault')}"
-        run = call("run", "job.toml", "--out", "r.h5")
-        if run.code:
-            return f"{case}: run ends with {run.code}: {run.text[-300:]}"
-        got = run.parameters()
-        for name in ("inertia", "viscous", "coulomb"):
-            true = getattr(joint, name)
-            if abs(got[name] - true) > TOLERANCE * true:
-                return f"{case}: {name} {got[name]:.4g}, true {true:.4g}"
-        return None
+        wrong = call("run", "job.toml", "--out", "r.h5").wrong_parameters(joint, TOLERANCE)
+        return f"{case}: {wrong}" if wrong else None
 
     return judge

@@ -68,13 +68,7 @@ def draw(rng, folder):
             key, value = advised.groups()
             job.write_text(re.sub(rf"^{key} = .*$", f"{key} = {value}", job.read_text(), flags=re.MULTILINE))
             run = call("run", "job.toml", "--out", "r.h5")
-        if run.code:
-            return f"run ends with {run.code}: {run.text[-300:]}"
-        got = run.parameters()
-        for name, tolerance in TOLERANCE.items():
-            true = getattr(joint, name)
-            if abs(got[name] - true) > tolerance * true:
-                return f"{name} {got[name]:.4g}, true {true:.4g}; rows {periods}, jitter {jitter}, {rate:g} Hz"
-        return None
+        wrong = run.wrong_parameters(joint, TOLERANCE)
+        return f"{wrong}; rows {periods}, jitter {jitter}, {rate:g} Hz" if wrong else None
 
     return judge

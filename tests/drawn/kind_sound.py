@@ -16,14 +16,6 @@ def draw(rng, folder):
         check = call("check", "job.toml")
         if check.topics("warn", "fault"):
             return f"check finds fault: {check.topics('warn', 'fault')}"
-        run = call("run", "job.toml", "--out", "r.h5")
-        if run.code:
-            return f"run ends with {run.code}: {run.text[-300:]}"
-        got = run.parameters()
-        for name in ("inertia", "viscous", "coulomb"):
-            true = getattr(joint, name)
-            if abs(got[name] - true) > TOLERANCE * true:
-                return f"{name} {got[name]:.4g}, true {true:.4g}"
-        return None
+        return call("run", "job.toml", "--out", "r.h5").wrong_parameters(joint, TOLERANCE)
 
     return judge

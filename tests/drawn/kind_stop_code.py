@@ -31,14 +31,7 @@ def draw(rng, folder):
             return f"{code}: check finds {said}"
         if not said:
             return f"{code}: check says nothing"
-        run = call("run", "job.toml", "--out", "r.h5")
-        if run.code:
-            return f"{code}: run ends with {run.code}: {run.text[-300:]}"
-        got = run.parameters()
-        for name in ("inertia", "viscous", "coulomb"):
-            true = getattr(joint, name)
-            if abs(got[name] - true) > TOLERANCE * true:
-                return f"{code}: {name} {got[name]:.4g}, true {true:.4g}"
-        return None
+        wrong = call("run", "job.toml", "--out", "r.h5").wrong_parameters(joint, TOLERANCE)
+        return f"{code}: {wrong}" if wrong else None
 
     return judge

@@ -35,14 +35,6 @@ def draw(rng, folder):
             return f"size {size:.3g}, said {said:.3g}"
         if steps and abs(float(words[words.index("at") + 1]) - at) > INSTANT_S:
             return f"at {at:.2f} s: {line['text']}"
-        run = call("run", "job.toml", "--out", "r.h5")
-        if run.code:
-            return f"run ends with {run.code}: {run.text[-300:]}"
-        got = run.parameters()
-        for name in ("inertia", "viscous", "coulomb"):
-            true = getattr(joint, name)
-            if abs(got[name] - true) > TOLERANCE * true:
-                return f"{name} {got[name]:.4g}, true {true:.4g}"
-        return None
+        return call("run", "job.toml", "--out", "r.h5").wrong_parameters(joint, TOLERANCE)
 
     return judge

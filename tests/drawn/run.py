@@ -38,6 +38,19 @@ class Answer:
         parameters = self.document["estimators"][0]["parameters"]
         return {one["name"]: one.get("value", one.get("median")) for one in parameters}
 
+    def wrong_parameters(self, joint, tolerance, scale=1.0):
+        """What `run` gives that is not the joint's own by these shares (by name, or one for all), or None."""
+        if self.code:
+            return f"run ends with {self.code}: {self.text[-300:]}"
+        if not isinstance(tolerance, dict):
+            tolerance = dict.fromkeys(("inertia", "viscous", "coulomb"), tolerance)
+        got = self.parameters()
+        for name, share in tolerance.items():
+            true = getattr(joint, name) / scale
+            if abs(got[name] - true) > share * abs(true):
+                return f"{name} {got[name]:.4g}, true {true:.4g}"
+        return None
+
 
 def caller_in(folder):
     def call(command, *words, json_file=True):

@@ -105,7 +105,8 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       ->type_name("FILE");
   auto* const joint = command
                           ->add_option("--joint", arguments->joint,
-                                       "of a file with several joints: its number in the file, from 1, or its name [1]")
+                                       "of a file with several joints: its number in the file, from 1, or its name "
+                                       "[the first that moves]")
                           ->type_name("N|NAME")
                           ->group("recording");
   command

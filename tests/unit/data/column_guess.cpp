@@ -90,9 +90,34 @@ TEST(ColumnGuess, OfAJointThatIsNotThereIsEmpty) {
   EXPECT_TRUE(guess.position.column.empty());
 }
 
+TEST(ColumnGuess, TakesTheFirstJointThatMovesUnlessOneIsNamed) {
+  auto const still = std::vector<double>(200, 0.0);
+  for (auto const& first : {wave(1e-4), still}) {
+    auto const guess =
+        guess_columns(table_of({{"q1_rad", first}, {"q2_rad", wave(1)}, {"tau1_Nm", wave(1)}, {"tau2_Nm", wave(1)}}));
+    EXPECT_EQ(guess.joint, 2u);
+    EXPECT_EQ(guess.position.column, "q2_rad");
+    EXPECT_TRUE(guess.passes_over_others);
+  }
+  auto const table = table_of({{"q1_rad", wave(1)}, {"q2_rad", wave(1)}, {"tau1_Nm", still}, {"tau2_Nm", wave(1)}});
+  EXPECT_EQ(guess_columns(table).torque.column, "tau2_Nm") << "a torque that never changes cannot be fitted";
+  EXPECT_EQ(guess_columns(table, 1).position.column, "q1_rad") << "a person's word is kept";
+  EXPECT_FALSE(guess_columns(table, 1).passes_over_others);
+}
+
+// 9999 in a few rows is no motion, and makes none of the others stand still
+TEST(ColumnGuess, ASentinelIsNoMotion) {
+  auto still = std::vector<double>(200, 0.5);
+  still[70] = still[120] = 9999.0;
+  auto const guess =
+      guess_columns(table_of({{"q1_rad", still}, {"q2_rad", wave(1)}, {"tau1_Nm", wave(1)}, {"tau2_Nm", wave(1)}}));
+  EXPECT_EQ(guess.joint, 2u);
+  EXPECT_EQ(guess.moving_joints, 1u);
+}
+
 TEST(ColumnGuess, SaysWhichJointMoves) {
   auto const guess = guess_columns(
-      table_of({{"q1_rad", wave(1e-4)}, {"q2_rad", wave(1)}, {"tau1_Nm", wave(1)}, {"tau2_Nm", wave(1)}}));
+      table_of({{"q1_rad", wave(1e-4)}, {"q2_rad", wave(1)}, {"tau1_Nm", wave(1)}, {"tau2_Nm", wave(1)}}), 1);
   EXPECT_EQ(guess.joint, 1u);
   EXPECT_EQ(guess.joint_that_moves, 2u);
   EXPECT_EQ(guess.moving_joints, 1u);
