@@ -31,6 +31,7 @@ RegressionData stack_rows(std::span<RecordedRows const> recordings, ArmRowChoice
   auto& arm = data.arm.emplace(RegressionData::Arm{});
   arm.scale = scale;
   arm.first_instant = {0};
+  arm.model = std::make_shared<ArmModel const>(model);
   arm.gain_column = model.gain_columns();
   Eigen::Index const n = count_rows(recordings, choice);
   data.phi.setZero(n, static_cast<Eigen::Index>(model.size()));
