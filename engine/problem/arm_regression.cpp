@@ -66,6 +66,16 @@ RegressionData stack_rows(std::span<RecordedRows const> recordings, ArmRowChoice
   return data;
 }
 
+RegressionData with_stated_gains(RegressionData const& data) {
+  TORQUESCOPE_EXPECT(data.arm.has_value());
+  RegressionData stated = data;
+  auto const gains = static_cast<Eigen::Index>(data.arm->gain_column.size());
+  stated.phi.conservativeResize(Eigen::NoChange, data.parameters() - gains);
+  stated.columns.resize(static_cast<std::size_t>(stated.parameters()));
+  stated.arm->gain_column.clear();
+  return stated;
+}
+
 Eigen::VectorXd unscaling_weights(RegressionData const& data) {
   TORQUESCOPE_EXPECT(data.arm.has_value());
   Eigen::VectorXd weights(data.rows());
