@@ -123,6 +123,20 @@ void expect_gains(RegressionData const& stated, RegressionData const& data, Eige
                 "carry a heavier payload through more positions; or leave drive_gains out and use wls");
 }
 
+// a gain whose error is as large as itself is the start's, not the payload's
+void expect_told(RegressionData const& data, LeastSquaresFit const& fit) {
+  for (std::size_t j = 0; j < data.arm->joints(); ++j) {
+    auto const gain = data.arm->gain_column[j];
+    double const factor = 1.0 + fit.parameters[gain], error = std::sqrt(fit.covariance_naive(gain, gain));
+    if (!(error < factor))
+      throw refused(fmt::format("tls: the payload does not tell the gain of joint {}: {:.2g} times the stated one, "
+                                "with an error of {:.2g}",
+                                j + 1, factor, error),
+                    "carry a heavier payload through more positions, and give payload_first_moments_kgm; or leave "
+                    "drive_gains out and use wls");
+  }
+}
+
 LeastSquaresFit fit_tls(RegressionData const& data, TlsOptions const& options) {
   if (!data.arm || data.arm->gain_column.empty())
     throw refused("tls has no drive gains to find",
@@ -152,6 +166,7 @@ LeastSquaresFit fit_tls(RegressionData const& data, TlsOptions const& options) {
   double const variance = rows.residual.squaredNorm() / freedom;
   Eigen::MatrixXd const bread = inverse_information(linear, {});
   fit.covariance_naive = variance * bread;
+  expect_told(data, fit);
   fit.scale = std::sqrt(variance);
   finish_fit(fit, linear, rows.residual, bread, options.hac_lags);
   fit.metrics = prediction_metrics(data, fit.parameters);
