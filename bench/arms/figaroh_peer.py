@@ -65,7 +65,7 @@ def main():
         text = (JOBS / f"{robot}.toml").read_text(encoding="utf-8")
         job = tomllib.loads(text)
         model, make = parts_of(job, wanted.folder)
-        train, unseen = make(figaroh_columns)
+        train, unseen, _ = make(figaroh_columns)
         chosen, found = least_squares(model, job, train)
         mine = ours(wanted.program, text, job, wanted.folder)
         print(f"{robot}: {len(chosen)} base parameters with frictions")

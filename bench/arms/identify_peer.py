@@ -1,10 +1,10 @@
 """Identification of real arms by others on the same rows: Pinocchio's regressor, scipy's filters, numpy's lstsq, joint
-by joint beside ours.
+by joint beside ours; then the held-out error over all rows, those near reversals included.
 
     identify_peer.py PROGRAM FOLDER [ROBOT ...]
 
 PROGRAM is torquescope, FOLDER holds panda/ and ur10e/ (jobs/README.md says where to get them). Nothing of ours makes
-the peer's rows: it reads the job, the robot and the recording itself. Needs PyPI's pin, numpy and scipy.
+the peer's rows: it reads the job, the robot and the recording itself. Needs PyPI's pin, numpy, scipy and h5py.
 """
 import argparse
 import gzip
@@ -14,6 +14,7 @@ import subprocess
 import tempfile
 import tomllib
 
+import h5py
 import numpy as np
 import pinocchio
 import scipy
@@ -46,7 +47,7 @@ def low_pass(values, cutoff_hz, rate_hz):
 
 
 def read(path, job, joints):
-    """Position and torque at the mean rate of the stamps."""
+    """Position and torque at the rate of the usual step of the stamps."""
     columns = job["recording"]["columns"]
     with gzip.open(path, "rt") as file:
         lines = [line for line in file if not line.startswith("#")]
@@ -55,7 +56,7 @@ def read(path, job, joints):
     pick = [[names.index(columns[channel].format(j=j + 1)) for j in range(joints)]
             for channel in ("position", "torque")]
     time = table[:, names.index(columns["time"])]
-    rate_hz = round((len(time) - 1) / (time[-1] - time[0]))
+    rate_hz = round(1 / np.median(np.diff(time)))
     even = time[0] + np.arange(int((time[-1] - time[0]) * rate_hz) + 1) / rate_hz
     even_columns = [np.column_stack([np.interp(even, time, table[:, c]) for c in chosen]) for chosen in pick]
     gains = np.array(job["recording"].get("torque_per_unit", 1.0))
@@ -82,7 +83,7 @@ def pinocchio_columns(model, q, dq, ddq, job):
 
 
 def rows_of(part, model, offset, job, columns_of=pinocchio_columns):
-    """Of each joint: filtered columns and torque of the samples that move one way."""
+    """Of each joint: filtered columns and torque of all samples but the ends, and which of them move one way."""
     position, torque, rate_hz = part
     wanted = job["filter"]
     q = low_pass(position, wanted["cutoff_hz"], rate_hz)
@@ -96,8 +97,16 @@ def rows_of(part, model, offset, job, columns_of=pinocchio_columns):
     for j, raw in enumerate(columns_of(model, q + offset, dq, ddq, job)):
         columns = low_pass(raw, cut, rate_hz)[kept]
         moving = ~still_samples(dq[:, j], rate_hz, cut)[kept]
-        rows.append((columns[moving], low_pass(torque[:, j], cut, rate_hz)[kept][moving]))
+        rows.append((columns, low_pass(torque[:, j], cut, rate_hz)[kept], moving))
     return rows
+
+
+def moving_of(rows):
+    return [(columns[moving], torque[moving]) for columns, torque, moving in rows]
+
+
+def all_of(rows):
+    return [(columns, torque) for columns, torque, _ in rows]
 
 
 def joined(parts):
@@ -128,7 +137,8 @@ def weighted(rows, turns=30):
 
 
 def parts_of(job, folder):
-    """The robot's model, its offsets, and rows of each joint in training and unseen, by whatever makes the columns."""
+    """The robot's model, and rows of each joint by whatever makes the columns: training and unseen ones that move one
+    way, all unseen ones."""
     with open(JOBS / job["model"]["robot"], "rb") as file:
         model, offset = chain(tomllib.load(file))
     listed = lambda key: [value] if isinstance(value := job["recording"].get(key, []), str) else value
@@ -139,15 +149,19 @@ def parts_of(job, folder):
         ends = [round(share * len(part[0])) for part in found["train"]]
         found["validate"] = [cut(part, end, None) for part, end in zip(found["train"], ends)]
         found["train"] = [cut(part, 0, end) for part, end in zip(found["train"], ends)]
-    make = lambda columns_of: [joined([rows_of(part, model, offset, job, columns_of) for part in found[key]])
-                               for key in ("train", "validate")]
+    def make(columns_of):
+        train, unseen = (joined([rows_of(part, model, offset, job, columns_of) for part in found[key]])
+                         for key in ("train", "validate"))
+        return moving_of(train), moving_of(unseen), all_of(unseen)
+
     return model, make
 
 
 def peer(job, folder):
     _, make = parts_of(job, folder)
-    train, unseen = make(pinocchio_columns)
-    return {name: (len(train), errors(train, x), errors(unseen, x))
+    train, unseen, everywhere = make(pinocchio_columns)
+    count = [sum(len(torque) for _, torque in rows) for rows in (unseen, everywhere)]
+    return {name: (count, errors(train, x), errors(unseen, x), errors(everywhere, x))
             for name, x in (("ols", solve(train, np.ones(len(train)))), ("wls", weighted(train)))}
 
 
@@ -167,9 +181,16 @@ def ours(program, text, job, folder):
                        capture_output=True)
         told = json.loads(subprocess.run([program, "show", place / "r.h5", "--json", "-"], check=True,
                                          capture_output=True, text=True).stdout)
-    return {one["name"]: (len(one["arm"]["joint_relerr"]), [*one["arm"]["joint_relerr"], one["train_relerr"]],
-                          [*one["arm"]["validation_joint_relerr"], one["validation_relerr"]])
+        with h5py.File(place / "r.h5") as result:
+            count = [int(result["data/validate"].attrs[name]) for name in ("samples", "samples_all_rows")]
+    return {one["name"]: (count, [*one["arm"]["joint_relerr"], one["train_relerr"]],
+                          [*one["arm"]["validation_joint_relerr"], one["validation_relerr"]],
+                          [*one["arm"]["validation_joint_relerr_all_rows"], one["arm"]["validation_relerr_all_rows"]])
             for one in told["estimators"]}
+
+
+def share_words(who, count):
+    return f"{who}: {count[0]} of {count[1]} held-out rows of joints move one way ({100 * count[0] / count[1]:.1f} %)"
 
 
 def main():
@@ -181,14 +202,19 @@ def main():
     print(f"Pinocchio {pinocchio.__version__}, numpy {np.__version__}, scipy {scipy.__version__}; relative errors in %,"
           " joint by joint, then the arm")
     for robot in wanted.robots:
+        if not (wanted.folder / robot).is_dir():
+            print(f"{robot}: skipped, no recordings in {wanted.folder / robot}: jobs/README.md says where to get them")
+            continue
         text = (JOBS / f"{robot}.toml").read_text(encoding="utf-8")
         job = tomllib.loads(text)
         theirs, mine = peer(job, wanted.folder), ours(wanted.program, text, job, wanted.folder)
         for name in ("ols", "wls"):
             for who, results in (("ours", mine), ("Pinocchio, numpy", theirs)):
-                for rows, values in zip(("train", "unseen"), results[name][1:]):
+                for rows, values in zip(("train", "unseen", "unseen, all rows"), results[name][1:]):
                     numbers = " | ".join(f"{100 * value:.3g}" for value in values)
                     print(f"| {robot}, {name}, {rows} | {who} | {numbers} |")
+        for who, results in (("ours", mine), ("Pinocchio, numpy", theirs)):
+            print(share_words(who, results["wls"][0]))
 
 
 if __name__ == "__main__":

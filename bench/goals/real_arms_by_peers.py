@@ -29,7 +29,7 @@ def timed(work):
 
 def by_figaroh(job, folder):
     model, make = identify_peer.parts_of(job, folder)
-    train, unseen = make(figaroh_peer.figaroh_columns)
+    train, unseen, _ = make(figaroh_peer.figaroh_columns)
     chosen, found = figaroh_peer.least_squares(model, job, train)
     return identify_peer.errors([(phi[:, chosen], tau) for phi, tau in unseen], found["wls"])[-1]
 

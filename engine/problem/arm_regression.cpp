@@ -31,6 +31,7 @@ RegressionData stack_rows(std::span<RecordedRows const> recordings, ArmRowChoice
   auto& arm = data.arm.emplace(RegressionData::Arm{});
   arm.scale = scale;
   arm.first_instant = {0};
+  arm.model = std::make_shared<ArmModel const>(model);
   arm.gain_column = model.gain_columns();
   Eigen::Index const n = count_rows(recordings, choice);
   data.phi.setZero(n, static_cast<Eigen::Index>(model.size()));
@@ -63,6 +64,16 @@ RegressionData stack_rows(std::span<RecordedRows const> recordings, ArmRowChoice
     arm.first_instant.push_back(arm.first_instant.back() + recording.instants);
   }
   return data;
+}
+
+RegressionData with_stated_gains(RegressionData const& data) {
+  TORQUESCOPE_EXPECT(data.arm.has_value());
+  RegressionData stated = data;
+  auto const gains = static_cast<Eigen::Index>(data.arm->gain_column.size());
+  stated.phi.conservativeResize(Eigen::NoChange, data.parameters() - gains);
+  stated.columns.resize(static_cast<std::size_t>(stated.parameters()));
+  stated.arm->gain_column.clear();
+  return stated;
 }
 
 Eigen::VectorXd unscaling_weights(RegressionData const& data) {

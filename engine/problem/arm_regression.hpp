@@ -24,6 +24,9 @@ enum class ArmRowChoice { moving, others };
 RegressionData stack_rows(std::span<RecordedRows const> recordings, ArmRowChoice choice, ArmModel const& model,
                           Eigen::VectorXd const& scale, Section const& filter);
 
+// the same rows with gains as they are stated: without the columns of their errors, which stand last
+RegressionData with_stated_gains(RegressionData const& data);
+
 // [n] of an arm's rows: with these weights every N m counts alike
 Eigen::VectorXd unscaling_weights(RegressionData const& data);
 

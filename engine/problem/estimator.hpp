@@ -26,8 +26,9 @@ struct EstimatorChoice {
   std::function<Estimate(Section const&, std::vector<std::string> const& ignored, std::vector<Problem>&)> prepare;
   bool needs_instruments = false;  // RegressionData::Arm::instruments
   bool needs_gains = false;        // drive gains of an arm among the parameters
+  bool needs_links = false;        // an arm
 
-  bool fits_any_rows() const { return !needs_instruments && !needs_gains; }
+  bool fits_any_rows() const { return !needs_instruments && !needs_gains && !needs_links; }
 };
 
 // every estimator that CMakeLists.txt lists, in that order

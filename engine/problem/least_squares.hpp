@@ -11,12 +11,19 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "engine/problem/prediction_metrics.hpp"
 #include "engine/problem/regression_data.hpp"
 #include "engine/problem/row_reduction.hpp"
 
 namespace torquescope {
+
+// inertial parameters of every link of an arm, and its drive inertias; empty where only sums of them are estimated
+struct StandardParameters {
+  std::vector<std::string> names;
+  Eigen::VectorXd values;
+};
 
 struct LeastSquaresFit {
   Eigen::VectorXd parameters;            // [R]
@@ -31,6 +38,7 @@ struct LeastSquaresFit {
   double scale = 0.0;         // of the residuals as the estimator sees them, unit of tau
   std::int64_t iterations = 1;
   bool converged = true;
+  StandardParameters standard{};
   std::string remark{};  // what a person should know: "one recording: wls is ols"
 };
 

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,8 @@
 #include "engine/effects/regressor.hpp"
 
 namespace torquescope {
+
+class ArmModel;
 
 struct RegressionData {
   Eigen::MatrixXd phi;                   // [n][R], filtered like the torque
@@ -42,6 +45,7 @@ struct RegressionData {
     std::vector<Eigen::Index> instant;        // [n] rows of several joints at the same time have the same
     std::vector<Eigen::Index> first_instant;  // [files + 1]
     Eigen::VectorXd scale;                    // [joints] rows of a joint were divided by it: its noise, N m or N
+    std::shared_ptr<ArmModel const> model{};  // whose columns these are
     std::vector<Eigen::Index> gain_column{};  // [joints] of the error of its gain; empty: gains are no parameters
     // [n][R] phi along the motion that an arm of these parameters makes without noise; none unless an estimator asks
     std::function<Eigen::MatrixXd(Eigen::VectorXd const& parameters)> instruments{};

@@ -23,11 +23,12 @@ constexpr double centred_at_end = 1e-20;  // the same at the path's end: roundin
 // without end (the mass of a link that only turns has no effect), the path becomes endless too
 constexpr int most_steps_a_weight = 60;
 
-// base parameters = matrix * standard ones
-MatrixXd sums_of(BaseParameters const& base) {
-  MatrixXd sums(base.size(), base.standard_size());
-  for (Index k = 0; k < base.standard_size(); ++k)
-    sums.col(k) = base.from_standard(VectorXd::Unit(base.standard_size(), k));
+// values of an estimate = matrix * (standard parameters, those beside the arm)
+MatrixXd sums_of(BaseParameters const& base, Index n_beside) {
+  Index const p = base.size(), n = base.standard_size();
+  MatrixXd sums = MatrixXd::Zero(p + n_beside, n + n_beside);
+  for (Index k = 0; k < n; ++k) sums.col(k).head(p) = base.from_standard(VectorXd::Unit(n, k));
+  sums.bottomRightCorner(n_beside, n_beside).setIdentity();
   return sums;
 }
 
@@ -60,37 +61,48 @@ struct Cube {
   }
 };
 
-// links by their Cholesky factors, and drives: positive whatever the rounding
+// links by their Cholesky factors; drives and what is beside the arm: positive whatever the rounding
 struct Bodies {
   std::vector<PseudoInertia> factors;
-  VectorXd drives;
+  VectorXd scalars;
 };
 
-// A step is a symmetric matrix S for each
-// link, L (1 + S) L', and a share of each drive: the barrier's second derivative by them is 1.
+// what a parameter beside the arm is measured with: itself, or its standard error where that is more
+VectorXd scales_beside(BaseEstimate const& estimate, Index p) {
+  VectorXd const lengths = estimate.root.colwise().norm().transpose();
+  VectorXd const errors = lengths.cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
+  Index const n = estimate.values.size() - p;
+  return estimate.values.tail(n).cwiseMax(errors.tail(n));
+}
+
+// A step is a symmetric matrix S for each link, L (1 + S) L', and a share of each scalar: the barrier's second
+// derivative by them is 1.
 class ClosestBodies {
  public:
   ClosestBodies(SerialChain const& chain, BaseParameters const& base, BaseEstimate const& estimate,
                 InertiaPrior const& prior)
-      : whitened_(estimate.root * sums_of(base)),
+      : whitened_(estimate.root * sums_of(base, estimate.values.size() - base.size())),
         target_(estimate.root * estimate.values),
-        n_drives_(base.standard_size() - numbers_per_link * chain.size()) {
+        n_scalars_(whitened_.cols() - numbers_per_link * chain.size()) {
     TORQUESCOPE_EXPECT(prior.links.empty() || prior.links.size() == chain.joints.size());
     TORQUESCOPE_EXPECT(prior.drives.empty() || prior.drives.size() == chain.joints.size());
     Cube const cube(chain, base, estimate.values);
     for (std::size_t i = 0; i < chain.joints.size(); ++i) {
-      priors_.push_back(prior.links.empty() ? cube.pseudo() : pseudo_inertia(prior.links[i].vector()));
+      bool const is_known = !prior.links.empty() && prior.links[i].mass > 0.0;
+      priors_.push_back(is_known ? pseudo_inertia(prior.links[i].vector()) : cube.pseudo());
       prior_inverses_.push_back(inverse(priors_.back()));
       bodies_.factors.push_back(cholesky_factor(priors_.back()));
     }
-    drive_priors_ = VectorXd(n_drives_);
-    for (Index i = 0; i < n_drives_; ++i) {
+    Index const n_drives = base.standard_size() - numbers_per_link * chain.size();
+    scales_ = VectorXd(n_scalars_);
+    for (Index i = 0; i < n_drives; ++i) {
       auto const at = static_cast<std::size_t>(i);
       double const own = prior.drives.empty() ? 0.0 : prior.drives[at];
       bool const turns = chain.joints[at].kind == JointKind::revolute;
-      drive_priors_[i] = own > 0.0 ? own : turns ? cube.second_moment() : cube.mass;
+      scales_[i] = own > 0.0 ? own : turns ? cube.second_moment() : cube.mass;
     }
-    bodies_.drives = drive_priors_;
+    scales_.tail(n_scalars_ - n_drives) = scales_beside(estimate, base.size());
+    bodies_.scalars = scales_;
   }
 
   ConsistentParameters solve(BaseParameters const& base, double end_weight) {
@@ -107,7 +119,9 @@ class ClosestBodies {
     }
     bodies_ = nearest;
     result.converged = result.gap <= visible_gap;
-    result.standard = standard();
+    VectorXd const all = unknowns();
+    result.standard = all.head(base.standard_size());
+    result.beside = all.tail(all.size() - base.standard_size());
     result.base = base.from_standard(result.standard);
     result.distance = residual().norm();
     result.divergence = divergences();
@@ -118,21 +132,21 @@ class ClosestBodies {
   Index n_links() const { return static_cast<Index>(bodies_.factors.size()); }
   PseudoInertia link(std::size_t i) const { return bodies_.factors[i] * bodies_.factors[i].transpose(); }
 
-  VectorXd standard() const {
-    VectorXd all(numbers_per_link * n_links() + n_drives_);
+  VectorXd unknowns() const {
+    VectorXd all(numbers_per_link * n_links() + n_scalars_);
     for (Index i = 0; i < n_links(); ++i)
       all.segment<numbers_per_link>(numbers_per_link * i) = link_vector(link(static_cast<std::size_t>(i)));
-    all.tail(n_drives_) = bodies_.drives;
+    all.tail(n_scalars_) = bodies_.scalars;
     return all;
   }
 
-  VectorXd residual() const { return whitened_ * standard() - target_; }
+  VectorXd residual() const { return whitened_ * unknowns() - target_; }
 
   double divergences() const {
     double sum = 0.0;
     for (std::size_t i = 0; i < bodies_.factors.size(); ++i) sum += divergence(link(i), priors_[i]);
-    for (Index i = 0; i < n_drives_; ++i)
-      sum += std::log(drive_priors_[i] / bodies_.drives[i]) + bodies_.drives[i] / drive_priors_[i] - 1.0;
+    for (Index i = 0; i < n_scalars_; ++i)
+      sum += std::log(scales_[i] / bodies_.scalars[i]) + bodies_.scalars[i] / scales_[i] - 1.0;
     return sum;
   }
 
@@ -142,7 +156,7 @@ class ClosestBodies {
     double sum = 0.0;
     for (std::size_t i = 0; i < bodies_.factors.size(); ++i)
       sum += 4.0 + prior_inverses_[i].cwiseProduct(link(i)).sum();
-    return sum + static_cast<double>(n_drives_) + bodies_.drives.cwiseQuotient(drive_priors_).sum();
+    return sum + static_cast<double>(n_scalars_) + bodies_.scalars.cwiseQuotient(scales_).sum();
   }
 
   // residual and slope of the divergences by the coordinates of a step
@@ -151,7 +165,7 @@ class ClosestBodies {
     VectorXd divergence;
   };
   Slopes slopes() const {
-    Index const n = numbers_per_link * n_links() + n_drives_;
+    Index const n = numbers_per_link * n_links() + n_scalars_;
     Slopes at{MatrixXd(whitened_.rows(), n), VectorXd(n)};
     for (Index i = 0; i < n_links(); ++i) {
       auto const& factor = bodies_.factors[static_cast<std::size_t>(i)];
@@ -165,8 +179,8 @@ class ClosestBodies {
         at.divergence[column] = pull.cwiseProduct(unit).sum();
       }
     }
-    at.residual.rightCols(n_drives_) = whitened_.rightCols(n_drives_) * bodies_.drives.asDiagonal();
-    at.divergence.tail(n_drives_) = bodies_.drives.cwiseQuotient(drive_priors_).array() - 1.0;
+    at.residual.rightCols(n_scalars_) = whitened_.rightCols(n_scalars_) * bodies_.scalars.asDiagonal();
+    at.divergence.tail(n_scalars_) = bodies_.scalars.cwiseQuotient(scales_).array() - 1.0;
     return at;
   }
 
@@ -204,14 +218,14 @@ class ClosestBodies {
       auto& factor = bodies_.factors[static_cast<std::size_t>(i)];
       factor = factor * cholesky_factor(inner);
     }
-    bodies_.drives = bodies_.drives.cwiseProduct((1.0 + step.tail(n_drives_).array()).matrix());
+    bodies_.scalars = bodies_.scalars.cwiseProduct((1.0 + step.tail(n_scalars_).array()).matrix());
   }
 
-  MatrixXd whitened_;  // residual = whitened * standard - target, in standard errors
+  MatrixXd whitened_;  // residual = whitened * unknowns - target, in standard errors
   VectorXd target_;
-  Index n_drives_;
+  Index n_scalars_;
   std::vector<PseudoInertia> priors_, prior_inverses_;
-  VectorXd drive_priors_;
+  VectorXd scales_;
   Bodies bodies_;
 };
 
@@ -219,9 +233,17 @@ class ClosestBodies {
 
 ConsistentParameters consistent_parameters(SerialChain const& chain, BaseParameters const& base,
                                            BaseEstimate const& estimate, InertiaPrior const& prior) {
-  TORQUESCOPE_EXPECT(estimate.values.size() == base.size());
-  TORQUESCOPE_EXPECT(estimate.root.cols() == base.size());
+  TORQUESCOPE_EXPECT(estimate.values.size() >= base.size());
+  TORQUESCOPE_EXPECT(estimate.root.cols() == estimate.values.size());
   return ClosestBodies(chain, base, estimate, prior).solve(base, prior.weight);
+}
+
+std::string prior_fault(LinkInertia const& link) {
+  constexpr double rounding = 1e-12;
+  std::string const fault = body_fault(link);
+  if (!fault.empty()) return fault;
+  VectorXd const sizes = symmetric_eigenvalues(pseudo_inertia(link.vector()));
+  return sizes.minCoeff() > rounding * sizes.maxCoeff() ? "" : "it has no thickness";
 }
 
 MatrixXd information_root(MatrixXd const& covariance) {

@@ -11,6 +11,7 @@
 // Source     pseudo_inertia.hpp; Boyd and Vandenberghe 2004, Convex Optimization, sections 9.6 and 11.3
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "engine/robot/base_parameters.hpp"
@@ -18,20 +19,23 @@
 namespace torquescope {
 
 struct BaseEstimate {
-  Eigen::VectorXd values;  // of BaseParameters, in their order
-  Eigen::MatrixXd root;    // R: R' R is the inverse of their covariance; p x p
+  // of BaseParameters, in their order; then of s more that are positive and beside the arm: frictions
+  Eigen::VectorXd values;
+  Eigen::MatrixXd root;  // R: R' R is the inverse of their covariance; (p + s) x (p + s)
 };
 
 struct InertiaPrior {
-  std::vector<LinkInertia> links{};  // from CAD or a URDF, bodies each; none: a cube about each frame's origin, as long
-                                     // as the longest link, of a mass that fits the largest inertia
-  std::vector<double> drives{};      // kg m^2 or kg; none: the cube's
-  double weight = 0.0;               // squared standard errors per unit of divergence; 0: choose, do not pull
+  // from CAD or a URDF, each a body; none, or without mass: a cube about the frame's origin, as long as the longest
+  // link, of a mass that fits the largest inertia
+  std::vector<LinkInertia> links{};
+  std::vector<double> drives{};  // kg m^2 or kg; none: the cube's
+  double weight = 0.0;           // squared standard errors per unit of divergence; 0: choose, do not pull
 };
 
 struct ConsistentParameters {
   Eigen::VectorXd standard;  // 10 N or 11 N, as the base parameters had them
   Eigen::VectorXd base;      // what they make of the base parameters
+  Eigen::VectorXd beside{};  // those beside the arm
   double distance = 0.0;     // |R (base - values)|: what consistency costs, in standard errors
   double divergence = 0.0;   // of all links from their priors
   double gap = 0.0;          // of the squared distance above its least, at most about
@@ -43,9 +47,12 @@ struct ConsistentParameters {
 // heavier without end: a small weight keeps them finite. The second is a hundredth of one parameter's variance
 inline constexpr double largest_gap = 1e-10, visible_gap = 1e-2;
 
-// Requires   root of full rank; priors that are bodies (body_fault()), one a link, or none
+// Requires   root of full rank; priors without a prior_fault(), or of no mass, one a link, or none
 ConsistentParameters consistent_parameters(SerialChain const& chain, BaseParameters const& base,
                                            BaseEstimate const& estimate, InertiaPrior const& prior = {});
+
+// why nothing is near this body, though it may be one ("it has no thickness"), or ""
+std::string prior_fault(LinkInertia const& link);
 
 // R from a covariance. Requires it positive definite
 Eigen::MatrixXd information_root(Eigen::MatrixXd const& covariance);

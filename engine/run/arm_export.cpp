@@ -85,13 +85,6 @@ std::vector<std::string> words_of(BaseParameters const& base) {
   return words;
 }
 
-// of zero thickness: nothing is near it
-bool is_flat(LinkInertia const& link) {
-  constexpr double rounding = 1e-12;
-  Eigen::VectorXd const sizes = symmetric_eigenvalues(pseudo_inertia(link.vector()));
-  return !(sizes.minCoeff() > rounding * sizes.maxCoeff());
-}
-
 InertiaPrior prior_of_file(SerialChain const& chain) {
   validate(chain.has_inertias(), [] {
     return Problem{.code = ExitCode::usage,
@@ -102,8 +95,7 @@ InertiaPrior prior_of_file(SerialChain const& chain) {
   prior.links = chain.links;
   for (auto const& joint : chain.joints) prior.drives.push_back(joint.drive_inertia);
   for (std::size_t i = 0; i < chain.links.size(); ++i) {
-    std::string fault = body_fault(chain.links[i]);
-    if (fault.empty() && is_flat(chain.links[i])) fault = "it has no thickness";
+    std::string const fault = prior_fault(chain.links[i]);
     validate(fault.empty(), [&] {
       return Problem{.code = ExitCode::usage,
                      .what = fmt::format("link {} of the robot file is no body: {}", i + 1, fault),
@@ -144,17 +136,53 @@ std::vector<ExportFormat> export_formats() {
   return formats;
 }
 
-ArmExport export_arm(IdentifiedArm const& arm, std::vector<std::string> const& names, Eigen::VectorXd const& values,
-                     std::string const& format, NearBodies near) {
-  BaseParameters const base(arm.chain, arm.drives);
+Eigen::VectorXd read_standard_parameters(ResultReader const& reader, std::string const& estimator) {
+  std::string const path = fmt::format("/runs/{}/standard_parameters", estimator);
+  if (!reader.exists(path)) return {};
+  auto const values = reader.numbers(path).values;
+  return Eigen::VectorXd::Map(values.data(), static_cast<Index>(values.size()));
+}
+
+namespace {
+
+// bodies, and how far from the estimate they are
+struct ArmBodies {
+  Eigen::VectorXd standard;
+  double distance = 0.0;
+  std::string words;
+};
+
+ArmBodies bodies_of(IdentifiedArm const& arm, BaseParameters const& base, ArmEstimate const& estimate,
+                    NearBodies near) {
   Index const p = base.size();
-  validate(values.size() == arm.information.rows() && names.size() == static_cast<std::size_t>(values.size()), [] {
-    return Problem{.code = ExitCode::bad_data, .what = "the parameters of this result do not fit its arm", .help = ""};
-  });
+  if (near == NearBodies::cubes && estimate.standard.size() > 0)
+    return {
+        estimate.standard, 0.0,
+        fmt::format("Identified by Torquescope as bodies, by estimator consistent: {} base parameters are theirs.", p)};
   InertiaPrior prior = near == NearBodies::robot_file ? prior_of_file(arm.chain) : InertiaPrior();
   // costs no more than can be seen, and keeps masses finite that no torque limits
   prior.weight = visible_gap;
-  auto const found = consistent_parameters(arm.chain, base, {values.head(p), base_root(arm.information, p)}, prior);
+  auto const found =
+      consistent_parameters(arm.chain, base, {estimate.values.head(p), base_root(arm.information, p)}, prior);
+  return {found.standard, found.distance,
+          fmt::format("Identified by Torquescope: the bodies closest to {} base parameters, {:.3g} standard errors "
+                      "away.",
+                      p, found.distance)};
+}
+
+}  // namespace
+
+ArmExport export_arm(IdentifiedArm const& arm, ArmEstimate const& estimate, std::string const& format,
+                     NearBodies near) {
+  BaseParameters const base(arm.chain, arm.drives);
+  auto const& [names, values, standard] = estimate;
+  bool const fits = values.size() == arm.information.rows() &&
+                    names.size() == static_cast<std::size_t>(values.size()) &&
+                    (standard.size() == 0 || standard.size() == base.standard_size());
+  validate(fits, [] {
+    return Problem{.code = ExitCode::bad_data, .what = "the parameters of this result do not fit its arm", .help = ""};
+  });
+  auto const found = bodies_of(arm, base, estimate, near);
   SerialChain chain = arm.chain;
   chain.links.clear();
   for (Index i = 0; i < chain.size(); ++i) {
@@ -164,13 +192,11 @@ ArmExport export_arm(IdentifiedArm const& arm, std::vector<std::string> const& n
   }
   ArmExport out;
   out.distance = found.distance;
-  out.notes.push_back(
-      fmt::format("Identified by Torquescope: the bodies closest to {} base parameters, {:.3g} standard errors away.",
-                  p, found.distance));
+  out.notes.push_back(found.words);
   for (auto const& words : words_of(base)) out.notes.push_back(words);
   if (near == NearBodies::robot_file) out.notes.emplace_back("What is chosen is near the robot file's inertias.");
   std::vector<std::string> beside;
-  for (Index k = p; k < values.size(); ++k)
+  for (Index k = base.size(); k < values.size(); ++k)
     beside.push_back(fmt::format("{} = {:.6g}", names[static_cast<std::size_t>(k)], values[k]));
   if (!beside.empty()) out.notes.push_back("Beside the links: " + listed(beside) + ".");
   for (auto const& writer : robot_writers())

@@ -37,9 +37,18 @@ struct ArmExport {
 // what the bodies stay near to where the parameters leave them open: cubes, or the inertias of the job's robot file
 enum class NearBodies { cubes, robot_file };
 
-// names, values: of all parameters of the result, base parameters first. Error 64 when near the robot file is asked for
-// and the file has none, or its links are no bodies
-ArmExport export_arm(IdentifiedArm const& arm, std::vector<std::string> const& names, Eigen::VectorXd const& values,
-                     std::string const& format, NearBodies near = NearBodies::cubes);
+// one estimator's parameters of the arm
+struct ArmEstimate {
+  std::vector<std::string> names;  // base parameters first
+  Eigen::VectorXd values;
+  Eigen::VectorXd standard{};  // of every link, where it has bodies of its own; else empty
+};
+
+// the bodies of an estimator that has some; empty of others
+Eigen::VectorXd read_standard_parameters(ResultReader const& reader, std::string const& estimator);
+
+// Error 64 when near the robot file is asked for and the file has no inertias, or its links are no bodies
+ArmExport export_arm(IdentifiedArm const& arm, ArmEstimate const& estimate, std::string const& format,
+                     NearBodies near = NearBodies::cubes);
 
 }  // namespace torquescope

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "engine/data/arm_recording.hpp"
 #include "engine/data/levels.hpp"
+#include "engine/problem/arm_regression.hpp"
 #include "engine/robot/forward_dynamics.hpp"
 #include "engine/run/fit_findings.hpp"
 
@@ -97,8 +101,18 @@ LeastInertias least_inertias(Experiment::Parts const& parts, VectorXd const& par
   return found;
 }
 
+// a torque below this share of the recorded one is rounding of a fit
+constexpr double rounding = 1e-9;
+
+// [R] parameters below these are zeros
+VectorXd zeros_of(RegressionData const& rows) {
+  VectorXd const lengths = rows.phi.colwise().norm().transpose();
+  return rounding * rows.tau.norm() * lengths.cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
+}
+
 // those that are surely negative; "" where none is
-std::string negative_inertias(ArmModel const& model, LeastInertias const& inertias, MatrixXd const& covariance) {
+std::string negative_inertias(ArmModel const& model, LeastInertias const& inertias, MatrixXd const& covariance,
+                              VectorXd const& zeros) {
   auto const count = model.base().size();
   std::string words;
   for (Index j = 0; j < inertias.least.size(); ++j) {
@@ -106,7 +120,8 @@ std::string negative_inertias(ArmModel const& model, LeastInertias const& inerti
     if (least >= 0.0) continue;
     VectorXd const gradient = own_inertias(model, inertias.where[static_cast<std::size_t>(j)]).row(j).transpose();
     double const error = std::sqrt(gradient.dot(covariance.topLeftCorner(count, count) * gradient));
-    if (!(least < -levels::surely_negative * error)) continue;
+    double const zero = gradient.cwiseAbs().dot(zeros.head(count));
+    if (!(least < -std::max(levels::surely_negative * error, zero))) continue;
     bool const turns = model.chain().joints[static_cast<std::size_t>(j)].kind == JointKind::revolute;
     words += fmt::format("{}inertia of joint {} = {:.3g} {}", words.empty() ? "" : ", ", j + 1, least,
                          turns ? "kg m^2" : "kg");
@@ -141,24 +156,30 @@ ArmIdentifiability arm_identifiability(Experiment::Parts const& parts) {
 }
 
 std::vector<Finding> arm_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
-  auto const& rows = parts.train.regression;
-  if (too_few_rows(rows) || !parts.health.identifiable) return {};
-  VectorXd const parameters = solve_reduced(rows, parts.reductions);
-  VectorXd const signs = parts.arm->model.passive_signs();
+  auto const& all = parts.train.regression;
+  if (too_few_rows(all) || !parts.health.identifiable) return {};
+  // with gains among the parameters, least squares of noisy torques is nearly that of none: zeros of either sign
+  bool const has_gains = !all.arm->gain_column.empty();
+  auto const stated = has_gains ? std::optional(with_stated_gains(all)) : std::nullopt;
+  auto const& rows = has_gains ? *stated : all;
+  VectorXd const parameters = has_gains ? solve_weighted(rows, {}) : solve_reduced(rows, parts.reductions);
+  VectorXd const signs = parts.arm->model.passive_signs().head(rows.parameters());
   auto const inertias = least_inertias(parts, parameters);
   // errors cost as much as a fit: asked for only where something is negative
   if (signs.cwiseProduct(parameters).minCoeff() >= 0.0 && inertias.least.minCoeff() >= 0.0) return {};
   auto const fit = fit_with_errors(rows, parameters);
+  VectorXd const zeros = zeros_of(rows);
   Finding finding{FindingKind::less_than_none, Grade::warning};
   finding.recording = parts.train.recordings.front().name;
   for (Index i = 0; i < signs.size(); ++i) {
-    if (!(signs[i] * fit.parameters[i] < -levels::surely_negative * fit.standard_error[i])) continue;
+    if (!(signs[i] * fit.parameters[i] < -std::max(levels::surely_negative * fit.standard_error[i], zeros[i])))
+      continue;
     ++finding.count;
     auto const& column = rows.columns[static_cast<std::size_t>(i)];
     finding.detail += fmt::format("{}{} = {:.3g} {}", finding.detail.empty() ? "" : ", ", column.name,
                                   fit.parameters[i], column.unit);
   }
-  std::string const negative = negative_inertias(parts.arm->model, inertias, fit.covariance_hac);
+  std::string const negative = negative_inertias(parts.arm->model, inertias, fit.covariance_hac, zeros);
   if (!negative.empty()) {
     ++finding.count;
     finding.grade = Grade::fault;

@@ -440,7 +440,9 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     if (is_arm && purpose == Purpose::diagnose)
       for (auto& finding : found) finding.grade = std::min(finding.grade, Grade::warning);
     if (is_arm)
-      for (auto& finding : setup_findings(*parts, recording)) found.push_back(std::move(finding));
+      for (auto& finding :
+           setup_findings(*parts, recording, purpose == Purpose::diagnose ? SetupUse::diagnosis : SetupUse::fit))
+        found.push_back(std::move(finding));
     auto& findings = parts->train.recordings.front().findings;
     findings.insert(findings.end(), found.begin(), found.end());
     if (channels == Channels::taken && !parts->output.samples) parts->train.regression.forget_motion();

@@ -178,6 +178,12 @@ void write_least_squares(ResultWriter& writer, std::string const& label, LeastSq
   writer.numbers(group + "/ci95", {1, n, 2}, {intervals.data(), 2 * n},
                  Note{"SI", "95 % interval"}.over({"run", "parameter", "bound"}));
   write_bounds(writer, group);
+  if (!fit.standard.names.empty()) {
+    write_names(writer, group, "standard", fit.standard.names);
+    write_vectors(writer, group + "/standard_parameters", {fit.standard.values},
+                  {"SI", "masses, first moments and inertias of every link, about its frame; drive inertias"},
+                  "standard");
+  }
   if (!form) return;
   write_names(writer, group, "form", form->names);
   write_vectors(writer, group + "/joint_form", {form->values(fit.parameters)}, {"SI", "equivalent form"}, "form");

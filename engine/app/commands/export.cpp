@@ -131,13 +131,15 @@ ExitCode export_result(ExportArguments const& arguments, Session const& session)
                                     "this result is of an earlier version, which kept neither limits nor "
                                     "gears: run its job again to have them in the exported file"));
   auto const& estimator = chosen_estimator(summary, arguments.estimator);
-  Eigen::VectorXd const values =
-      Eigen::VectorXd::Map(estimator.parameters.data(), static_cast<Eigen::Index>(estimator.parameters.size()));
+  ArmEstimate const estimate{
+      summary.names,
+      Eigen::VectorXd::Map(estimator.parameters.data(), static_cast<Eigen::Index>(estimator.parameters.size())),
+      read_standard_parameters(ResultReader(arguments.file), estimator.name)};
   session.note(session.topic_line("values", "of " + column_title(estimator)));
   auto const near = arguments.near_cad ? NearBodies::robot_file : NearBodies::cubes;
   bool first = true;
   for (auto const& [format, file] : arguments.out) {
-    auto const written = export_arm(arm, summary.names, values, format, near);
+    auto const written = export_arm(arm, estimate, format, near);
     write_text(file, written.text, session);
     if (file != "-") session.note(session.topic_line("wrote", file));
     for (auto const& note : written.notes)

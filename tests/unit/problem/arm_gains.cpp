@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "engine/base/error.hpp"
 #include "engine/problem/arm_regression.hpp"
@@ -101,6 +102,52 @@ TEST(ArmGains, LeastSquaresIsBiasedAndTotalLeastSquaresIsNot) {
   for (Eigen::Index j = 0; j < 5; ++j) EXPECT_LT(std::abs(total[j]), 4.0 * of_mean[j]) << j;
   EXPECT_GT((plain.array().abs() / of_mean.array()).maxCoeff(), 10.0);
   EXPECT_GT(static_cast<double>(held) / (5.0 * draws), 0.88);
+}
+
+std::string refusal(RegressionData const& data) {
+  try {
+    fit("tls", data);
+  } catch (Error const& error) {
+    return error.problems().front().what + " | " + error.problems().front().help;
+  }
+  return "";
+}
+
+// the load as light as a screw: noise says what the gain is, and no sign is wrong
+TEST(ArmGains, OfALoadTooLightAreRefusedByThatName) {
+  auto const model = model_with_gains({0.002});
+  std::vector<RecordedRows> recordings;
+  for (bool const is_loaded : {false, true}) {
+    auto motion = motion_of(5, 700, is_loaded ? 12 : 11);
+    add_torque(model.chain(), motion);
+    add_noise(motion, is_loaded ? 3 : 4);
+    recordings.push_back(rows_of(model, motion, is_loaded ? std::optional<std::size_t>(0) : std::nullopt));
+  }
+  Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(test::joint_noise.data(), 5);
+  auto const told = refusal(stack_rows(recordings, ArmRowChoice::moving, model, scale, Section{"filter", {}, {}}));
+  EXPECT_NE(told.find("the payload does not tell the gain"), std::string::npos) << told;
+  EXPECT_EQ(told.find("torque_per_unit"), std::string::npos) << told;
+}
+
+TEST(ArmGains, OfATurnedTorqueAreRefusedByItsSign) {
+  auto data = recorded(model_with_gains(), 1.0, 1);
+  for (std::size_t k = 0; k < data.recordings(); ++k) {
+    if (data.arm->joint[k] != 2) continue;
+    auto const first = data.first_row[k], count = data.first_row[k + 1] - first;
+    data.tau.segment(first, count) *= -1.0;
+    data.phi.col(data.arm->gain_column[2]).segment(first, count) *= -1.0;
+  }
+  auto const told = refusal(data);
+  EXPECT_NE(told.find("torque of joint 3 has the other sign"), std::string::npos) << told;
+}
+
+TEST(ArmGains, AsStatedAreRowsWithoutThem) {
+  auto const data = recorded(model_with_gains(), 1.0, 1);
+  auto const stated = with_stated_gains(data);
+  EXPECT_EQ(stated.parameters() + 5, data.parameters());
+  EXPECT_EQ(stated.phi, data.phi.leftCols(stated.parameters()));
+  EXPECT_EQ(stated.columns.size(), static_cast<std::size_t>(stated.parameters()));
+  EXPECT_TRUE(stated.arm->gain_column.empty());
 }
 
 TEST(ArmGains, WithoutAPayloadAreNoQuestion) {

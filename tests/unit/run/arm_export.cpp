@@ -26,7 +26,7 @@ TEST(ArmExport, OfATrueEstimateHasItsTorqueAndSaysWhatIsChosen) {
   std::vector<std::string> names;
   for (auto const& parameter : base.parameters()) names.push_back(parameter.name);
   names.emplace_back("viscous_1");
-  auto const made = export_arm(arm, names, values, "toml");
+  auto const made = export_arm(arm, {names, values}, "toml");
   EXPECT_LT(made.distance, 1.0);  // the pull of the prior costs less than a standard error
   EXPECT_THAT(made.text, testing::HasSubstr("No torque depends on these, they are chosen: m1"));
   EXPECT_THAT(made.text, testing::HasSubstr("viscous_1 = 0.25"));
@@ -56,7 +56,7 @@ TEST(ArmExport, NearTheRobotFileKeepsWhatTheParametersLeaveOpen) {
   arm.chain = chain;
   test::TemporaryFolder const folder;
   auto const made = [&](NearBodies near) {
-    return read_robot(folder.write("arm.toml", export_arm(arm, names, values, "toml", near).text));
+    return read_robot(folder.write("arm.toml", export_arm(arm, {names, values}, "toml", near).text));
   };
   auto const near = made(NearBodies::robot_file), cubes = made(NearBodies::cubes);
   // the mass of the first link moves nothing
@@ -65,7 +65,27 @@ TEST(ArmExport, NearTheRobotFileKeepsWhatTheParametersLeaveOpen) {
   Eigen::VectorXd const again = base.from_standard(standard_parameters(near, DriveInertias::included));
   EXPECT_LT((again - values).norm(), 1e-3 * values.norm());
   arm.chain.links.clear();
-  EXPECT_THROW(export_arm(arm, names, values, "toml", NearBodies::robot_file), Error);
+  EXPECT_THROW(export_arm(arm, {names, values}, "toml", NearBodies::robot_file), Error);
+}
+
+// an estimator's own bodies are written as they are
+TEST(ArmExport, WritesTheBodiesThatWereEstimated) {
+  IdentifiedArm arm;
+  arm.chain = read_robot(TORQUESCOPE_SOURCE_DIR "/jobs/robots/crs_a465.toml");
+  BaseParameters const base(arm.chain, DriveInertias::included);
+  arm.information = Eigen::MatrixXd::Identity(base.size(), base.size());
+  ArmEstimate estimate;
+  for (auto const& parameter : base.parameters()) estimate.names.push_back(parameter.name);
+  estimate.standard = 1.2 * standard_parameters(arm.chain, DriveInertias::included);
+  estimate.values = base.from_standard(estimate.standard);
+  test::TemporaryFolder const folder;
+  auto const made = export_arm(arm, estimate, "urdf");
+  EXPECT_EQ(made.distance, 0.0);
+  auto const again = read_robot(folder.write("arm.urdf", made.text));
+  for (std::size_t i = 0; i < arm.chain.links.size(); ++i)
+    EXPECT_NEAR(again.links[i].mass, 1.2 * arm.chain.links[i].mass, 1e-9 * again.links[i].mass);
+  estimate.standard.conservativeResize(7);
+  EXPECT_THROW(export_arm(arm, estimate, "urdf"), Error);
 }
 
 TEST(ArmExport, KnowsEveryWriter) {

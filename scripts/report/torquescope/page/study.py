@@ -11,7 +11,8 @@ from .arm import Arm
 from ..errors import ResultError
 from ..reader.read_result import Result, rolls_out
 
-ONE_RUN = ("ols", "wls", "irls", "essential", "iv", "tls", "lm")  # the others are searches of several runs
+# the others are searches of several runs
+ONE_RUN = ("ols", "wls", "irls", "essential", "consistent", "iv", "tls", "lm")
 
 
 class View:
