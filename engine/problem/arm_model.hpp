@@ -3,7 +3,8 @@
 // what is not known of its payloads, the errors of its drive gains.
 //
 // Equation   (1 + g_j) tau_j = y_j(q, dq, ddq) (chi + payload) + f_j(q_j, dq_j, ddq_j) phi_j; row j has the links from
-//            j on, its own drive and its own friction; the column of g_j is - tau_j
+//            j on, its own drive and its own friction; the column of g_j is - tau_j. Drives that turn with several
+//            joints (SerialChain::transmission): motor m has f_m and its inertia at T_m q, and row j feels T_mj of it
 // Order      base parameters (robot/base_parameters.hpp); friction of joint 1, 2, ...: "viscous_3"; unknown numbers of
 //            each payload (robot/payload.hpp): "payload1_mx6"; "gain_error_3"
 // Shapes     N joints, R parameters, n samples
@@ -59,6 +60,13 @@ class ArmModel {
   // parameters that row `joint` depends on, ascending
   std::vector<Eigen::Index> const& parameters_of(std::size_t joint) const { return own_[joint]; }
 
+  // motors that row `joint` feels: its own, and those that turn with it
+  std::vector<std::size_t> motors_of_joint(std::size_t joint) const;
+  // of the motor, on the joint's side; other channels are those of its own joint
+  Motion motor_motion(std::vector<Motion> const& motion, std::size_t motor) const;
+  // columns of friction in row `joint` that follow from its own motion: none where it feels or shares a coupled drive
+  std::size_t friction_alone(std::size_t joint) const;
+
   // [N] of the errors of the gains; empty where gains are no parameters
   std::vector<Eigen::Index> const& gain_columns() const { return gains_; }
   std::vector<PayloadColumns> const& payloads() const { return payloads_; }
@@ -73,6 +81,9 @@ class ArmModel {
   void add_payload_columns();
   void add_gain_columns();
   void fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const;
+  void fill_coupled_drives(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const;
+  double turns(std::size_t motor, std::size_t joint) const;  // of the motor per turn of the joint
+  std::vector<std::size_t> joints_of_motor(std::size_t motor) const;
   // base parameters of a joint's rows: its first columns
   std::vector<Eigen::Index> rigid_parameters(std::size_t joint) const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/dense_solvers.hpp"
 #include "engine/base/error.hpp"
@@ -62,6 +63,20 @@ Eigen::MatrixXd base_root(Eigen::MatrixXd const& information, Index p) {
                    .help = "record a motion that moves every joint, and identify again"};
   });
   return factor->lower().transpose() * lengths.head(p).asDiagonal();
+}
+
+// "motor 6 turns by q6 + 0.5 q5", of coupled drives: no robot file has a place for it
+std::vector<std::string> drive_words(SerialChain const& chain) {
+  std::vector<std::string> words;
+  for (Index m = 0; m < chain.size(); ++m) {
+    if (!chain.is_coupled(m)) continue;
+    std::string text = fmt::format("Motor {0} turns by q{0}", m + 1);
+    for (Index j = 0; j < chain.size(); ++j)
+      if (double const turns = chain.transmission(m, j); j != m && turns != 0.0)
+        text += fmt::format(" {} {:g} q{}", turns < 0.0 ? "-" : "+", std::abs(turns), j + 1);
+    words.push_back(text + ": its inertia and friction are those at that angle.");
+  }
+  return words;
 }
 
 std::string listed(std::vector<std::string> const& names) { return fmt::format("{}", fmt::join(names, ", ")); }
@@ -168,6 +183,7 @@ ArmExport export_arm(IdentifiedArm const& arm, std::vector<std::string> const& n
       fmt::format("Identified by Torquescope: the bodies closest to {} base parameters, {:.3g} standard errors away.",
                   p, found.distance));
   for (auto const& words : words_of(base)) out.notes.push_back(words);
+  for (auto const& words : drive_words(chain)) out.notes.push_back(words);
   if (near == NearBodies::robot_file) out.notes.emplace_back("What is chosen is near the robot file's inertias.");
   std::vector<std::string> beside;
   for (Index k = p; k < values.size(); ++k)

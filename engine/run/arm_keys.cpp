@@ -2,14 +2,38 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "engine/run/job_sections.hpp"
 
 namespace torquescope {
 
-void read_joint_friction(Job const& job, std::size_t joints, ArmTerms& terms) {
+namespace {
+
+// of one motor; the number of its own joint is 1: the gear stands in torque_per_unit
+std::optional<Problem> fault_of_drive(std::vector<double> const& turns, std::size_t joint, std::size_t joints,
+                                      Section const& section) {
+  std::string const help = fmt::format(
+      "write one number a joint, of motor {0} per turn of it on the joint's side, and 1 for joint {0} itself", joint);
+  if (turns.size() != joints)
+    return problem_at(section, "motor_turns_by",
+                      fmt::format("motor_turns_by has {} numbers, and the arm has {} joints", turns.size(), joints),
+                      help);
+  if (turns[joint - 1] != 1.0)
+    return problem_at(section, "motor_turns_by",
+                      fmt::format("motor {0} turns by {1:g} of its own joint {0}, not by 1", joint, turns[joint - 1]),
+                      help);
+  return {};
+}
+
+}  // namespace
+
+Eigen::MatrixXd read_joint_models(Job const& job, std::size_t joints, ArmTerms& terms) {
   terms.joint_friction.assign(joints, terms.friction);
   terms.joint_sections.assign(joints, section_or_empty(job, "model"));
   std::vector<Problem> problems;
+  auto const n = static_cast<Eigen::Index>(joints);
+  Eigen::MatrixXd transmission = Eigen::MatrixXd::Identity(n, n);
   for (auto const& section : job.sections) {
     auto const joint = joint_of_section(section.name);
     if (!joint) continue;
@@ -22,8 +46,15 @@ void read_joint_friction(Job const& job, std::size_t joints, ArmTerms& terms) {
     JointModelOptions::table().apply(section, own, problems);
     terms.joint_friction[*joint - 1] = own.friction;
     if (section.find("friction") != nullptr) terms.joint_sections[*joint - 1] = section;
+    if (own.motor_turns_by.empty()) continue;
+    auto fault = fault_of_drive(own.motor_turns_by, *joint, joints, section);
+    if (fault)
+      problems.push_back(std::move(*fault));
+    else
+      transmission.row(static_cast<Eigen::Index>(*joint) - 1) = Eigen::RowVectorXd::Map(own.motor_turns_by.data(), n);
   }
   if (!problems.empty()) throw Error(std::move(problems));
+  return transmission.isIdentity(0.0) ? Eigen::MatrixXd() : transmission;
 }
 
 void choose_arm_effects(Experiment::Parts& parts, std::vector<Problem>& problems) {
@@ -50,6 +81,23 @@ void refuse_joint_keys(Job const& job, std::vector<Problem>& problems) {
                                       "the robot file says how its joints move; what each has beside the rigid arm is "
                                       "friction = [\"viscous\", \"coulomb\", \"offset\"]"));
   }
+}
+
+void refuse_beside_coupled_drives(Job const& job, std::vector<EstimatorPlan> const& plans,
+                                  std::vector<Problem>& problems) {
+  if (Section const* simulated = job.find("simulate"))
+    problems.push_back(problem_at(*simulated, "",
+                                  "[simulate] has drives of one joint each, and motor_turns_by couples some",
+                                  "remove motor_turns_by, or name a recording in recording.train"));
+  auto const sections = job.all("estimator");
+  for (std::size_t i = 0; i < plans.size(); ++i)
+    if (plans[i].needs_instruments)
+      problems.push_back(
+          problem_at(*sections[i], "name",
+                     fmt::format("{} simulates the arm with drives of one joint each, and motor_turns_by "
+                                 "couples some",
+                                 plans[i].kind),
+                     "use wls"));
 }
 
 void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems) {

@@ -388,6 +388,8 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
   }
   if (!is_arm) refuse_arm_keys(job, parts->estimators, problems);
+  if (parts->arm && parts->arm->model.chain().has_coupled_drives())
+    refuse_beside_coupled_drives(job, parts->estimators, problems);
   bool const simulates = job.find("simulate") != nullptr;
   SimulationPlan plan;
   ArmSimulationPlan arm_plan;
