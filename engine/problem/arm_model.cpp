@@ -39,7 +39,7 @@ std::vector<std::optional<Regressor>> friction_of(SerialChain const& chain, ArmT
 
 ArmModel::ArmModel(SerialChain chain, ArmTerms const& terms, Section const& model)
     : chain_(std::move(chain)),
-      drives_(terms.drives),
+      terms_(terms),
       base_(chain_, terms.drives),
       rigid_(chain_, base_, std::vector<FrictionColumns>(chain_.joints.size(), {false, false, false})),
       friction_(friction_of(chain_, terms, model)),
@@ -60,6 +60,8 @@ ArmModel::ArmModel(SerialChain chain, ArmTerms const& terms, Section const& mode
       columns_.push_back(std::move(column));
     }
   }
+  first_law_ = std::ssize(columns_);
+  add_law_columns();
   for (auto const& payload : terms.payloads) payloads_.push_back(payload_columns(chain_, base_, payload));
   add_payload_columns();
   if (terms.drive_gains) add_gain_columns();
@@ -96,6 +98,50 @@ Motion ArmModel::motor_motion(std::vector<Motion> const& motion, std::size_t mot
     for (std::size_t const j : joints_of_motor(motor)) turned.*signal += turns(motor, j) * (motion[j].*signal);
   }
   return turned;
+}
+
+ArmModel ArmModel::with_laws(std::vector<HeldLaw> laws) const {
+  ArmTerms terms = terms_;
+  terms.laws = std::move(laws);
+  return {chain_, terms, Section{"model", {}, {}}};
+}
+
+void ArmModel::add_law_columns() {
+  for (auto const& law : terms_.laws)
+    for (std::size_t k = 0; k < law.effect->n_linear(); ++k) {
+      auto const& parameter = law.effect->parameters()[k];
+      RegressorColumn column{fmt::format("{}_{}", parameter.name, law.joint + 1),
+                             parameter.unit_for(chain_.joints[law.joint].kind)};
+      column.needs_velocity = true;
+      for (std::size_t const row : joints_of_motor(law.joint)) own_[row].push_back(std::ssize(columns_));
+      columns_.push_back(std::move(column));
+    }
+}
+
+std::vector<Eigen::MatrixXd> ArmModel::law_columns(HeldLaw const& law, std::vector<Motion> const& motion,
+                                                   std::vector<Eigen::MatrixXd> const& rows) const {
+  bool const is_coupled = chain_.is_coupled(static_cast<Eigen::Index>(law.joint));
+  Motion const moved = is_coupled ? motor_motion(motion, law.joint) : motion[law.joint];
+  EffectInput input{moved, law.scales};
+  Eigen::VectorXd load, all;
+  if (law.effect->needs_baseline()) {
+    auto const& own = own_[law.joint];
+    auto const count = std::lower_bound(own.begin(), own.end(), first_law_) - own.begin();
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index k = 0; k < count && law.baseline.size() > 0; ++k)
+      values[k] = law.baseline[own[static_cast<std::size_t>(k)]];
+    auto const rigid = std::ssize(rigid_parameters(law.joint));
+    load = rows[law.joint].leftCols(rigid) * values.head(rigid);
+    all = rows[law.joint].leftCols(count) * values;
+    auto const n = static_cast<std::size_t>(load.size());
+    input.load_torque = {load.data(), n};
+    input.model_torque = {all.data(), n};
+  }
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(moved.q.size(), static_cast<Eigen::Index>(law.effect->n_linear()));
+  if (law.effect->takes_shape(law.shape.size())) law.effect->columns(input, law.shape, columns);
+  std::vector<Eigen::MatrixXd> of_joints(joints());
+  for (std::size_t const j : joints_of_motor(law.joint)) of_joints[j] = turns(law.joint, j) * columns;
+  return of_joints;
 }
 
 void ArmModel::add_payload_columns() {
@@ -226,6 +272,14 @@ std::vector<Eigen::MatrixXd> ArmModel::rows(std::vector<Motion> const& motion,
     for (std::size_t const j : joints_of_motor(m)) {
       rows[j].middleCols(places[j], columns.cols()) = turns(m, j) * columns;
       places[j] += columns.cols();
+    }
+  }
+  for (auto const& law : terms_.laws) {
+    auto const columns = law_columns(law, motion, rows);
+    for (std::size_t j = 0; j < joints(); ++j) {
+      if (columns[j].size() == 0) continue;
+      rows[j].middleCols(places[j], columns[j].cols()) = columns[j];
+      places[j] += columns[j].cols();
     }
   }
   for (std::size_t j = 0; j < joints(); ++j) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/arms/law_shapes.hpp"
 #include "engine/base/digest.hpp"
 #include "engine/data/arm_recording.hpp"
 #include "engine/data/filter_checks.hpp"
@@ -219,6 +220,11 @@ void stack(std::vector<RecordedRows> const& rows, Experiment::Parts const& parts
 }
 
 void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
+  auto& model = parts.arm->model;
+  if (!model.laws().empty()) {
+    ArmFilter const filter{parts.filter, section_or_empty(parts.job, "filter")};
+    model = model.with_laws(refined_laws(model, train, filter));
+  }
   if (parts.arm->keeps_channels) {
     parts.arm->train = train;
     parts.arm->validate = unseen;
@@ -260,6 +266,7 @@ ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Paylo
   terms.velocity_deadband = options.velocity_deadband;
   terms.payloads = payloads;
   terms.drive_gains = options.drive_gains;
+  terms.laws = read_arm_laws(job, chain);
   std::string const sha256 = digest_of(chain);
   ArmParts arm{ArmModel(std::move(chain), terms, section_or_empty(job, "model")), options.robot, sha256};
   arm.otherwise = std::move(otherwise);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
+#include "engine/effects/beside_arm.hpp"
 #include "engine/run/job_sections.hpp"
 
 namespace torquescope {
@@ -57,6 +59,80 @@ Eigen::MatrixXd read_joint_models(Job const& job, std::size_t joints, ArmTerms& 
   return transmission.isIdentity(0.0) ? Eigen::MatrixXd() : transmission;
 }
 
+namespace {
+
+std::optional<double> number_in(Setting const& setting) {
+  auto const value = converted(setting.value, 0.0);
+  return value ? std::optional(std::get<double>(*value)) : std::nullopt;
+}
+
+Effect const* effect_of_law(Section const& section, JointKind kind, std::vector<Problem>& problems) {
+  Setting const* const name = section.find("name");
+  auto const* const word = name ? std::get_if<std::string>(&name->value) : nullptr;
+  Effect const* const effect = word ? find_effect(*word) : nullptr;
+  std::string const why = effect ? why_not_beside_arm(*effect, kind) : "";
+  if (effect != nullptr && why.empty()) return effect;
+  std::string what = "an effect of [[model.effects]] has no name";
+  if (word) what = fmt::format("\"{}\" is no effect of a joint", *word);
+  if (!why.empty()) what = fmt::format("\"{}\" cannot stand beside an arm: {}", *word, why);
+  problems.push_back(problem_at(section, "name", what, "torquescope list effects"));
+  return nullptr;
+}
+
+std::optional<std::size_t> joint_of_law(Section const& section, std::size_t joints, std::vector<Problem>& problems) {
+  Setting const* const setting = section.find("joint");
+  auto const number = setting ? number_in(*setting) : std::nullopt;
+  for (std::size_t j = 0; number && j < joints; ++j)
+    if (*number == static_cast<double>(j + 1)) return j;
+  problems.push_back(problem_at(section, "joint", "an effect of an arm stands at one of its joints",
+                                fmt::format("write joint = 1 to joint = {}", joints)));
+  return {};
+}
+
+// where the search of its shapes begins; none of them: anywhere
+std::vector<double> shape_of_law(Section const& section, Effect const& effect, std::vector<Problem>& problems) {
+  std::vector<std::string> known{"name", "joint"};
+  std::vector<double> shape;
+  for (std::size_t k = effect.n_linear(); k < effect.parameters().size(); ++k) {
+    known.push_back(effect.parameters()[k].name);
+    Setting const* const setting = section.find(known.back());
+    if (setting == nullptr) continue;
+    if (auto const value = number_in(*setting))
+      shape.push_back(*value);
+    else
+      problems.push_back(wrong_type(section, *setting, 0.0));
+  }
+  for (auto const& setting : section.settings)
+    if (std::find(known.begin(), known.end(), setting.key) == known.end())
+      problems.push_back(unknown_key(section, setting, known));
+  if (!shape.empty() && shape.size() != effect.n_shape())
+    problems.push_back(problem_at(section, "name", fmt::format("{} has some of its shapes, not all", effect.name()),
+                                  "give all of them or none: what is given is where the search begins"));
+  return shape;
+}
+
+}  // namespace
+
+std::vector<HeldLaw> read_arm_laws(Job const& job, SerialChain const& chain) {
+  std::vector<Problem> problems;
+  std::vector<HeldLaw> laws;
+  for (Section const* section : job.all("model.effects")) {
+    auto const joint = joint_of_law(*section, chain.joints.size(), problems);
+    if (!joint) continue;
+    Effect const* effect = effect_of_law(*section, chain.joints[*joint].kind, problems);
+    if (effect == nullptr) continue;
+    bool const is_there = std::any_of(laws.begin(), laws.end(),
+                                      [&](HeldLaw const& law) { return law.effect == effect && law.joint == *joint; });
+    if (is_there)
+      problems.push_back(problem_at(*section, "name",
+                                    fmt::format("{} of joint {} stands there twice", effect->name(), *joint + 1),
+                                    "remove one"));
+    laws.push_back({effect, *joint, shape_of_law(*section, *effect, problems)});
+  }
+  if (!problems.empty()) throw Error(std::move(problems));
+  return laws;
+}
+
 void choose_arm_effects(Experiment::Parts& parts, std::vector<Problem>& problems) {
   auto const& model = parts.arm->model;
   for (std::size_t j = 0; j < model.joints(); ++j) {
@@ -65,6 +141,8 @@ void choose_arm_effects(Experiment::Parts& parts, std::vector<Problem>& problems
       if (effect->is_rigid_body()) has.push_back(effect->name());
     if (auto const& friction = model.friction()[j])
       for (Effect const* effect : friction->terms()) has.push_back(effect->name());
+    for (HeldLaw const& law : model.laws())
+      if (law.joint == j) has.push_back(law.effect->name());
     std::vector<Problem> own;
     parts.arm->effects.push_back(chosen_effects(parts.diagnose, model.chain().joints[j].kind, has,
                                                 section_or_empty(parts.job, "diagnose"), own, JointsOfJob::of_an_arm));
@@ -81,6 +159,15 @@ void refuse_joint_keys(Job const& job, std::vector<Problem>& problems) {
                                       "the robot file says how its joints move; what each has beside the rigid arm is "
                                       "friction = [\"viscous\", \"coulomb\", \"offset\"]"));
   }
+}
+
+void refuse_beside_laws(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems) {
+  auto const sections = job.all("estimator");
+  for (std::size_t i = 0; i < plans.size(); ++i)
+    if (plans[i].needs_instruments)
+      problems.push_back(problem_at(
+          *sections[i], "name",
+          fmt::format("{} simulates the arm without the effects of [[model.effects]]", plans[i].kind), "use wls"));
 }
 
 void refuse_beside_coupled_drives(Job const& job, std::vector<EstimatorPlan> const& plans,
