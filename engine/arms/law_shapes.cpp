@@ -200,6 +200,9 @@ class LawWork {
     Beside const of = beside_others(which);
     ShapeGrid const grid = shape_grid(*law.effect, law.scales);
     if (law.shape.empty()) law.shape = best_of(grid, of);
+    // what a job gives may lie beyond what is plausible
+    for (std::size_t k = 0; k < law.shape.size(); ++k)
+      law.shape[k] = std::clamp(law.shape[k], grid.ranges[k].lower, grid.ranges[k].upper);
     law.shape = polished(of, grid.ranges, law.shape);
   }
 
