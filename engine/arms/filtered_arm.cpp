@@ -1,7 +1,7 @@
 #include "engine/arms/filtered_arm.hpp"
 
 #include "engine/data/filter_checks.hpp"
-#include "engine/pipeline/reversal_mask.hpp"
+#include "engine/pipeline/arm_reversals.hpp"
 
 namespace torquescope {
 
@@ -13,9 +13,7 @@ std::vector<Motion> motion_of(RecordedArm const& recording, ArmFilter const& fil
 
 RecordedRows rows_of(ArmModel const& model, RecordedArm const& recording, std::vector<Motion> const& motion,
                      ArmFilter const& filter) {
-  std::vector<std::vector<bool>> moves;
-  for (auto const& joint : motion)
-    moves.push_back(moving_samples(joint.dq, joint.rate_hz, parallel_cutoff_of(filter.options)));
+  auto const moves = samples_one_way(model, motion, parallel_cutoff_of(filter.options));
   return make_recorded_rows(recording.joints.front().name, motion, moves, filter.options, model, filter.section,
                             recording.payload);
 }

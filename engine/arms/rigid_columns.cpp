@@ -20,7 +20,7 @@ std::vector<Eigen::Index> rigid_places(ArmModel const& model, std::size_t joint)
   auto const& own = model.parameters_of(joint);
   auto const& gains = model.gain_columns();
   auto const first = std::lower_bound(own.begin(), own.end(), model.base().size()) - own.begin();
-  auto const friction = static_cast<std::ptrdiff_t>(model.friction()[joint] ? model.friction()[joint]->size() : 0);
+  auto const friction = static_cast<std::ptrdiff_t>(model.friction_alone(joint));
   std::vector<Eigen::Index> places;
   for (std::ptrdiff_t k = 0; k < std::ssize(own); ++k) {
     bool const is_friction = k >= first && k < first + friction;

@@ -41,7 +41,7 @@ Eigen::VectorXd mean_inertias(ArmModel const& model, Eigen::VectorXd const& para
 Eigen::MatrixXd rigid_torque(ArmModel const& model, Eigen::MatrixXd const& parameters, std::size_t joint,
                              Eigen::MatrixXd const& rows) {
   auto const& own = model.parameters_of(joint);
-  auto const friction = static_cast<Eigen::Index>(model.friction()[joint] ? model.friction()[joint]->size() : 0);
+  auto const friction = static_cast<Eigen::Index>(model.friction_alone(joint));
   Eigen::MatrixXd of_joint = parameters(own, Eigen::all);
   auto const rigid = std::lower_bound(own.begin(), own.end(), model.base().size()) - own.begin();
   of_joint.middleRows(rigid, friction).setZero();

@@ -13,14 +13,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index blocks = 8;  // of time, fitted and held out in turn
+constexpr Index time_blocks = 8;  // of time, fitted and held out in turn
 
 // products of every joint's columns over the even or the odd blocks
 std::vector<JointGram> grams_of(ArmRows const& rows, ArmSamples const& samples, Index side) {
   Index const n = samples.size();
   MatrixXd weights = samples.moves;
   for (Index k = 0; k < n; ++k)
-    if (k * blocks / n % 2 != side) weights.row(k).setZero();
+    if (k * time_blocks / n % 2 != side) weights.row(k).setZero();
   auto const span_of = [n](MatrixXd const& of, Index j) {
     return std::span<double const>(of.col(j).data(), static_cast<std::size_t>(n));
   };

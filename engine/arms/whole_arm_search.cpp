@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/arms/own_instants.hpp"
 #include "engine/arms/whole_arm_energies.hpp"
 #include "engine/statistics/bounded_projection.hpp"
 #include "engine/statistics/scaled_solution.hpp"
@@ -157,7 +158,7 @@ class WholeArmWork {
     return torque;
   }
 
-  // what unseen recordings leave, of all laws beside the model as fitted with them
+  // what unseen recordings leave, of all laws beside the model as fitted with them; the last law is yet to be placed
   Eigen::VectorXd unseen_left(std::size_t which, std::vector<FoundWholeArmLaw> const& laws) const {
     Eigen::VectorXd torque = rows_.torque;
     for (auto const& law : laws) torque -= trained_torque(law);
@@ -165,27 +166,35 @@ class WholeArmWork {
     WholeArmRows const& rows = unseen_[which];
     Eigen::VectorXd left = rows.torque - rows.model * parameters;
     for (auto const& law : laws)
-      if (law.acts_in[which]) left -= law_torque(rows, law);
+      if (which < law.unseen_times.size()) left -= placed_torque(rows, law, which);
     return left;
+  }
+
+  static Eigen::VectorXd placed_torque(WholeArmRows const& rows, FoundWholeArmLaw const& law, std::size_t which) {
+    auto const& time = law.unseen_times[which];
+    Eigen::VectorXd torque = law_torque(rows, law);
+    for (Eigen::Index i = 0; i < torque.size(); ++i)
+      if (!time || !time->holds(which, rows.rows[static_cast<std::size_t>(i)].time_s)) torque[i] = 0.0;
+    return torque;
   }
 
   void look_at_unseen(FoundWholeArmLaw& found) const {
     double before = 0.0, after = 0.0, torque = 0.0;
     std::vector<FoundWholeArmLaw> with = accepted_;
     with.push_back(found);
-    with.back().acts_in.assign(unseen_.size(), true);
-    found.acts_in = with.back().acts_in;
     for (std::size_t k = 0; k < unseen_.size(); ++k) {
+      found.unseen_times.emplace_back();
       if (unseen_[k].stretches.empty()) continue;
-      RowBlock const all{0, unseen_[k].torque.size()}, head = unseen_[k].stretches.front().rows;
-      with.back().acts_in[k] = true;
-      Eigen::VectorXd left = unseen_left(k, with);
+      RowBlock const all{0, unseen_[k].torque.size()};
+      Eigen::VectorXd left = unseen_left(k, with), acting = law_torque(unseen_[k], found);
+      found.unseen_times.back() = ActingTime{k};
       if (found.time) {
-        with.back().acts_in[k] = false;
-        Eigen::VectorXd const without = unseen_left(k, with);
-        found.acts_in[k] = energy_on(left, head) < energy_on(without, head);
-        if (!found.acts_in[k]) left = without;
+        auto own = own_instants(unseen_[k], k, left, acting, question_.alpha,
+                                {question_.seed, static_cast<std::uint32_t>(k), question_.threads});
+        found.unseen_times.back() = own.time;
+        acting = std::move(own.torque);
       }
+      left -= acting;
       before += plain_energy(unseen_[k], noise_, unseen_left(k, accepted_), all);
       after += plain_energy(unseen_[k], noise_, left, all);
       torque += plain_energy(unseen_[k], noise_, unseen_[k].torque, all);
@@ -239,11 +248,12 @@ std::vector<Eigen::VectorXd> whole_arm_torques(WholeArmQuestion const& question,
     auto const law = std::find_if(laws.begin(), laws.end(), [&](WholeArmLaw const& one) {
       return one.effect == found.law.effect && one.joint == found.law.joint;
     });
-    if (of.is_unseen && !found.acts_in[of.which]) continue;
+    auto const& time = of.is_unseen ? found.unseen_times[of.which] : found.time;
+    if (of.is_unseen && !time) continue;
     for (std::size_t j = 0; j < torques.size(); ++j) {
       Eigen::VectorXd torque = law->columns[j] * found.values;
-      for (Eigen::Index i = 0; i < torque.size() && found.time && !of.is_unseen; ++i)
-        if (!found.time->holds(of.which, motion[j].time_s[i])) torque[i] = 0.0;
+      for (Eigen::Index i = 0; i < torque.size() && time; ++i)
+        if (!time->holds(of.which, motion[j].time_s[i])) torque[i] = 0.0;
       torques[j] += torque;
     }
   }

@@ -7,7 +7,8 @@
 // Mismatch   energy left on rows left out, less that of noise (whole_arm_energies.hpp). Of a law with instants: in its
 //            recording
 // Alike      other laws beyond chance that leave not clearly more on rows left out
-// Unseen     a law with instants acts there from the beginning or not at all, as the first stretch tells
+// Unseen     a law with instants has instants of its own in each unseen recording, where they explain more than those
+//            of replicates (own_instants.hpp); else it does not act there
 // Errors     those of the filters
 // Threads    spreads the scan over `threads`; same bits for any number
 
@@ -40,8 +41,8 @@ struct FoundWholeArmLaw {
   double z = 0.0, p = 1.0;
   double explained = 0.0;            // share of the mismatch, on rows left out
   double before = 0.0, after = 0.0;  // relerr over all joints on rows left out, of the recordings it may act in
-  double unseen_before = 0.0, unseen_after = 0.0;  // the same of unseen recordings it acts in; 0: none
-  std::vector<bool> acts_in{};                     // of each unseen recording
+  double unseen_before = 0.0, unseen_after = 0.0;         // the same of unseen recordings it acts in; 0: none
+  std::vector<std::optional<ActingTime>> unseen_times{};  // of each unseen recording; none: it does not act there
   WholeArmReason reason = WholeArmReason::chance;
   std::vector<Effect const*> alike{};
 };

@@ -79,7 +79,7 @@ class ArmWork {
     Diagnosis diagnosis;
     diagnosis.seed = input_.seed;
     diagnosis.q = input_.selection.q;
-    diagnosis.arm = account_for_whole_arm(answers_, names_of(train_), whole_arm_level());
+    diagnosis.arm = account_for_whole_arm(answers_, {names_of(train_), names_of(unseen_)}, whole_arm_level());
     for (auto& outcome : outcomes_) diagnosis.joints.push_back(joint_of(outcome.diagnosis));
     diagnosis.verdict = verdict_of_arm(diagnosis.joints, diagnosis.arm->effects);
     diagnosis.reason = arm_reason_sentence(diagnosis);

@@ -36,7 +36,7 @@ std::vector<ParameterEstimate> parameters_of(FoundWholeArmLaw const& found) {
   return parameters;
 }
 
-NamedEffect named(FoundWholeArmLaw const& found, std::vector<std::string> const& recordings, double alpha) {
+NamedEffect named(FoundWholeArmLaw const& found, WholeArmRecordings const& recordings, double alpha) {
   Effect const& effect = *found.law.effect;
   NamedEffect made = named_after(effect);
   for (Effect const* other : found.alike) made.equivalent.push_back(other->name());
@@ -45,11 +45,13 @@ NamedEffect named(FoundWholeArmLaw const& found, std::vector<std::string> const&
   made.z = found.z;
   made.gain.cv = found.explained;
   made.parameters = parameters_of(found);
-  WholeArmFacts facts{"", -infinite, infinite, found.before, found.after, found.unseen_before, found.unseen_after};
+  WholeArmFacts facts{"", -infinite, infinite, found.before, found.after, found.unseen_before, found.unseen_after, {}};
   if (found.time) {
-    facts.recording = recordings[found.time->recording];
+    facts.recording = recordings.train[found.time->recording];
     facts.from_s = found.time->from_s;
     facts.until_s = found.time->until_s;
+    for (auto const& there : found.unseen_times)
+      if (there) facts.unseen.push_back({recordings.unseen[there->recording], there->from_s, there->until_s});
     made.region = {word(SignatureAxis::time), facts.from_s, facts.until_s, "s"};
   }
   made.sentence = whole_arm_sentence(made, facts);
@@ -103,7 +105,7 @@ void mark(std::vector<Candidate>& candidates, FoundWholeArmLaw const& accepted) 
 }  // namespace
 
 WholeArmDiagnosis account_for_whole_arm(std::vector<WholeArmAnswer> const& answers,
-                                        std::vector<std::string> const& recordings, double alpha) {
+                                        WholeArmRecordings const& recordings, double alpha) {
   WholeArmDiagnosis made;
   for (WholeArmAnswer const& answer : answers) {
     if (made.candidates.empty() || !answer.accepted.empty()) {

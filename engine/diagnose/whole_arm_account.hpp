@@ -11,8 +11,13 @@
 
 namespace torquescope {
 
-// answers: of one search after the other, each beside what those before had found; recordings: names of training
+// names, in the order of the question
+struct WholeArmRecordings {
+  std::vector<std::string> train{}, unseen{};
+};
+
+// answers: of one search after the other, each beside what those before had found
 WholeArmDiagnosis account_for_whole_arm(std::vector<WholeArmAnswer> const& answers,
-                                        std::vector<std::string> const& recordings, double alpha);
+                                        WholeArmRecordings const& recordings, double alpha);
 
 }  // namespace torquescope

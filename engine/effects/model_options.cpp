@@ -34,7 +34,12 @@ OptionTable<ModelOptions> const& ModelOptions::table() {
 OptionTable<JointModelOptions> const& JointModelOptions::table() {
   static OptionTable<JointModelOptions> const table(
       "model.joint_1", "of an arm: what joint 1 has of its own; [model.joint_2] and so on likewise",
-      {{"friction", &JointModelOptions::friction, "effects beside the rigid arm, in place of model.friction"}});
+      {{"friction", &JointModelOptions::friction, "effects beside the rigid arm, in place of model.friction"},
+       {"motor_turns_by", &JointModelOptions::motor_turns_by,
+        "of a coupled drive: how far this motor turns per turn of each joint, on the joint's side. [0, 0, 0, 0, 1, 1] "
+        "of "
+        "joint 6: by q5 + q6, as in wrists with a common transmission. Its friction and inertia follow that angle and "
+        "are felt at all these joints; torques are those at the joints"}});
   return table;
 }
 

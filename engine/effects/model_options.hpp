@@ -27,6 +27,7 @@ struct ModelOptions {
 // [model.joint_1], [model.joint_2], ...
 struct JointModelOptions {
   std::vector<std::string> friction{};
+  std::vector<double> motor_turns_by{};  // row of the transmission; empty: its own joint alone
 
   static OptionTable<JointModelOptions> const& table();
 };

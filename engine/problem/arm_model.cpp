@@ -39,7 +39,7 @@ std::vector<std::optional<Regressor>> friction_of(SerialChain const& chain, ArmT
 
 ArmModel::ArmModel(SerialChain chain, ArmTerms const& terms, Section const& model)
     : chain_(std::move(chain)),
-      drives_(terms.drives),
+      terms_(terms),
       base_(chain_, terms.drives),
       rigid_(chain_, base_, std::vector<FrictionColumns>(chain_.joints.size(), {false, false, false})),
       friction_(friction_of(chain_, terms, model)),
@@ -55,14 +55,93 @@ ArmModel::ArmModel(SerialChain chain, ArmTerms const& terms, Section const& mode
   for (std::size_t j = 0; j < friction_.size(); ++j) {
     if (!friction_[j]) continue;
     for (auto column : friction_[j]->column_owners()) {
-      own_[j].push_back(static_cast<Eigen::Index>(columns_.size()));
+      for (std::size_t const row : joints_of_motor(j)) own_[row].push_back(static_cast<Eigen::Index>(columns_.size()));
       column.name += fmt::format("_{}", j + 1);
       columns_.push_back(std::move(column));
     }
   }
+  first_law_ = std::ssize(columns_);
+  add_law_columns();
   for (auto const& payload : terms.payloads) payloads_.push_back(payload_columns(chain_, base_, payload));
   add_payload_columns();
   if (terms.drive_gains) add_gain_columns();
+}
+
+double ArmModel::turns(std::size_t motor, std::size_t joint) const {
+  if (!chain_.has_coupled_drives()) return motor == joint ? 1.0 : 0.0;
+  return chain_.transmission(static_cast<Eigen::Index>(motor), static_cast<Eigen::Index>(joint));
+}
+
+std::vector<std::size_t> ArmModel::joints_of_motor(std::size_t motor) const {
+  std::vector<std::size_t> joints;
+  for (std::size_t j = 0; j < chain_.joints.size(); ++j)
+    if (turns(motor, j) != 0.0) joints.push_back(j);
+  return joints;
+}
+
+std::vector<std::size_t> ArmModel::motors_of_joint(std::size_t joint) const {
+  std::vector<std::size_t> motors;
+  for (std::size_t m = 0; m < chain_.joints.size(); ++m)
+    if (turns(m, joint) != 0.0) motors.push_back(m);
+  return motors;
+}
+
+std::size_t ArmModel::friction_alone(std::size_t joint) const {
+  bool const is_alone = motors_of_joint(joint).size() == 1 && !chain_.is_coupled(static_cast<Eigen::Index>(joint));
+  return is_alone && friction_[joint] ? friction_[joint]->size() : 0;
+}
+
+Motion ArmModel::motor_motion(std::vector<Motion> const& motion, std::size_t motor) const {
+  Motion turned = motion[motor];
+  for (auto signal : {&Motion::q, &Motion::dq, &Motion::ddq}) {
+    (turned.*signal).setZero();
+    for (std::size_t const j : joints_of_motor(motor)) turned.*signal += turns(motor, j) * (motion[j].*signal);
+  }
+  return turned;
+}
+
+ArmModel ArmModel::with_laws(std::vector<HeldLaw> laws) const {
+  ArmTerms terms = terms_;
+  terms.laws = std::move(laws);
+  return {chain_, terms, Section{"model", {}, {}}};
+}
+
+void ArmModel::add_law_columns() {
+  for (auto const& law : terms_.laws)
+    for (std::size_t k = 0; k < law.effect->n_linear(); ++k) {
+      auto const& parameter = law.effect->parameters()[k];
+      RegressorColumn column{fmt::format("{}_{}", parameter.name, law.joint + 1),
+                             parameter.unit_for(chain_.joints[law.joint].kind)};
+      column.needs_velocity = true;
+      for (std::size_t const row : joints_of_motor(law.joint)) own_[row].push_back(std::ssize(columns_));
+      columns_.push_back(std::move(column));
+    }
+}
+
+std::vector<Eigen::MatrixXd> ArmModel::law_columns(HeldLaw const& law, std::vector<Motion> const& motion,
+                                                   std::vector<Eigen::MatrixXd> const& rows) const {
+  bool const is_coupled = chain_.is_coupled(static_cast<Eigen::Index>(law.joint));
+  Motion const moved = is_coupled ? motor_motion(motion, law.joint) : motion[law.joint];
+  EffectInput input{moved, law.scales};
+  Eigen::VectorXd load, all;
+  if (law.effect->needs_baseline()) {
+    auto const& own = own_[law.joint];
+    auto const count = std::lower_bound(own.begin(), own.end(), first_law_) - own.begin();
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index k = 0; k < count && law.baseline.size() > 0; ++k)
+      values[k] = law.baseline[own[static_cast<std::size_t>(k)]];
+    auto const rigid = std::ssize(rigid_parameters(law.joint));
+    load = rows[law.joint].leftCols(rigid) * values.head(rigid);
+    all = rows[law.joint].leftCols(count) * values;
+    auto const n = static_cast<std::size_t>(load.size());
+    input.load_torque = {load.data(), n};
+    input.model_torque = {all.data(), n};
+  }
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(moved.q.size(), static_cast<Eigen::Index>(law.effect->n_linear()));
+  if (law.effect->takes_shape(law.shape.size())) law.effect->columns(input, law.shape, columns);
+  std::vector<Eigen::MatrixXd> of_joints(joints());
+  for (std::size_t const j : joints_of_motor(law.joint)) of_joints[j] = turns(law.joint, j) * columns;
+  return of_joints;
 }
 
 void ArmModel::add_payload_columns() {
@@ -143,6 +222,25 @@ void ArmModel::fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::
   for (auto const& joint : motion)
     samples.push_back({numbers(joint.q), numbers(joint.dq), numbers(joint.ddq), numbers(joint.dq)});
   rigid_.fill(samples, rows);
+  if (chain_.has_coupled_drives()) fill_coupled_drives(motion, rows);
+}
+
+void ArmModel::fill_coupled_drives(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const {
+  Eigen::Index const links = numbers_per_link * chain_.size();
+  for (std::size_t j = 0; j < joints(); ++j) {
+    auto const rigid = rigid_parameters(j);
+    // the kernel's columns stand side by side: from the last one to its place
+    auto from = static_cast<Eigen::Index>(rigid_.columns(static_cast<Eigen::Index>(j)).size());
+    for (auto place = std::ssize(rigid) - 1; place >= 0; --place) {
+      Eigen::Index const column = base_.columns()[static_cast<std::size_t>(rigid[static_cast<std::size_t>(place)])];
+      if (column >= links && chain_.is_coupled(column - links)) {
+        auto const motor = static_cast<std::size_t>(column - links);
+        rows[j].col(place) = turns(motor, j) * motor_motion(motion, motor).ddq;
+      } else if (--from != place) {
+        rows[j].col(place) = rows[j].col(from);
+      }
+    }
+  }
 }
 
 std::vector<Eigen::Index> ArmModel::rigid_parameters(std::size_t joint) const {
@@ -165,14 +263,28 @@ std::vector<Eigen::MatrixXd> ArmModel::rows(std::vector<Motion> const& motion,
     rows.emplace_back(Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(own_[j].size())));
   }
   fill_rigid(motion, rows);
+  std::vector<Eigen::Index> places;
+  for (std::size_t j = 0; j < joints(); ++j) places.push_back(std::ssize(rigid_parameters(j)));
+  for (std::size_t m = 0; m < joints(); ++m) {
+    if (!friction_[m]) continue;
+    bool const is_coupled = chain_.is_coupled(static_cast<Eigen::Index>(m));
+    Eigen::MatrixXd const columns = friction_[m]->columns(is_coupled ? motor_motion(motion, m) : motion[m]);
+    for (std::size_t const j : joints_of_motor(m)) {
+      rows[j].middleCols(places[j], columns.cols()) = turns(m, j) * columns;
+      places[j] += columns.cols();
+    }
+  }
+  for (auto const& law : terms_.laws) {
+    auto const columns = law_columns(law, motion, rows);
+    for (std::size_t j = 0; j < joints(); ++j) {
+      if (columns[j].size() == 0) continue;
+      rows[j].middleCols(places[j], columns[j].cols()) = columns[j];
+      places[j] += columns[j].cols();
+    }
+  }
   for (std::size_t j = 0; j < joints(); ++j) {
     auto const rigid = rigid_parameters(j);
-    auto next = static_cast<Eigen::Index>(rigid.size());
-    if (friction_[j]) {
-      auto const count = static_cast<Eigen::Index>(friction_[j]->size());
-      rows[j].middleCols(next, count) = friction_[j]->columns(motion[j]);
-      next += count;
-    }
+    Eigen::Index next = places[j];
     for (std::size_t p = 0; p < payloads_.size(); ++p) {
       auto const& unknown = payloads_[p].unknown;
       if (payload == p)

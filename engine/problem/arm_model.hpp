@@ -1,11 +1,12 @@
 #pragma once
 // The model of an arm as linear parameters: the base parameters of its links and drives, the friction of each joint,
-// what is not known of its payloads, the errors of its drive gains.
+// laws at held shapes, what is not known of its payloads, the errors of its drive gains.
 //
 // Equation   (1 + g_j) tau_j = y_j(q, dq, ddq) (chi + payload) + f_j(q_j, dq_j, ddq_j) phi_j; row j has the links from
-//            j on, its own drive and its own friction; the column of g_j is - tau_j
-// Order      base parameters (robot/base_parameters.hpp); friction of joint 1, 2, ...: "viscous_3"; unknown numbers of
-//            each payload (robot/payload.hpp): "payload1_mx6"; "gain_error_3"
+//            j on, its own drive and its own friction; the column of g_j is - tau_j. Drives that turn with several
+//            joints (SerialChain::transmission): motor m has f_m and its inertia at T_m q, and row j feels T_mj of it
+// Order      base parameters (robot/base_parameters.hpp); friction of joint 1, 2, ...: "viscous_3"; laws: "stribeck_2";
+//            unknown numbers of each payload (robot/payload.hpp): "payload1_mx6"; "gain_error_3"
 // Shapes     N joints, R parameters, n samples
 // Errors     Error 78 as Regressor(), of the effects that each joint has beside the rigid arm
 // Threads    immutable
@@ -25,6 +26,16 @@
 
 namespace torquescope {
 
+// a law of one joint whose shape is held: its torque is linear in what is left
+struct HeldLaw {
+  Effect const* effect = nullptr;
+  std::size_t joint = 0;
+  std::vector<double> shape{};  // n_shape(); empty: not yet known
+  JointScales scales{};         // of the joint's motion
+  // base parameters and friction, at which what the gear carries is taken; empty: nothing
+  Eigen::VectorXd baseline{};
+};
+
 struct ArmTerms {
   std::vector<std::string> friction{};                     // of every joint
   std::vector<std::vector<std::string>> joint_friction{};  // [N] of each, in place of it; empty: all are alike
@@ -33,6 +44,7 @@ struct ArmTerms {
   double velocity_deadband = 0.0;
   std::vector<Payload> payloads{};
   bool drive_gains = false;
+  std::vector<HeldLaw> laws{};
 };
 
 class ArmModel {
@@ -42,7 +54,7 @@ class ArmModel {
 
   SerialChain const& chain() const { return chain_; }
   BaseParameters const& base() const { return base_; }
-  DriveInertias drives() const { return drives_; }
+  DriveInertias drives() const { return terms_.drives; }
   // of each joint, where it has any
   std::vector<std::optional<Regressor>> const& friction() const { return friction_; }
   std::size_t joints() const { return chain_.joints.size(); }
@@ -59,9 +71,22 @@ class ArmModel {
   // parameters that row `joint` depends on, ascending
   std::vector<Eigen::Index> const& parameters_of(std::size_t joint) const { return own_[joint]; }
 
+  // motors that row `joint` feels: its own, and those that turn with it
+  std::vector<std::size_t> motors_of_joint(std::size_t joint) const;
+  // of the motor, on the joint's side; other channels are those of its own joint
+  Motion motor_motion(std::vector<Motion> const& motion, std::size_t motor) const;
+  // columns of friction in row `joint` that follow from its own motion: none where it feels or shares a coupled drive
+  std::size_t friction_alone(std::size_t joint) const;
+
   // [N] of the errors of the gains; empty where gains are no parameters
   std::vector<Eigen::Index> const& gain_columns() const { return gains_; }
   std::vector<PayloadColumns> const& payloads() const { return payloads_; }
+  std::vector<HeldLaw> const& laws() const { return terms_.laws; }
+  // the same arm with these laws in place of its own
+  ArmModel with_laws(std::vector<HeldLaw> laws) const;
+  // [N] n x n_linear of a law as each joint feels it, empty where none does, zero of an unknown shape; rows: as rows()
+  std::vector<Eigen::MatrixXd> law_columns(HeldLaw const& law, std::vector<Motion> const& motion,
+                                           std::vector<Eigen::MatrixXd> const& rows) const;
 
   // of each joint the columns of its own parameters, n x parameters_of(joint); one motion a joint, equal lengths, with
   // torques if gains are parameters. payload: which one the arm carries
@@ -70,19 +95,24 @@ class ArmModel {
   Eigen::VectorXd known_torque(std::size_t joint, Eigen::MatrixXd const& rows, std::size_t payload) const;
 
  private:
+  void add_law_columns();
   void add_payload_columns();
   void add_gain_columns();
   void fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const;
+  void fill_coupled_drives(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const;
+  double turns(std::size_t motor, std::size_t joint) const;  // of the motor per turn of the joint
+  std::vector<std::size_t> joints_of_motor(std::size_t motor) const;
   // base parameters of a joint's rows: its first columns
   std::vector<Eigen::Index> rigid_parameters(std::size_t joint) const;
 
   SerialChain chain_;
-  DriveInertias drives_;
+  ArmTerms terms_;
   BaseParameters base_;
   ArmRows rigid_;
   std::vector<std::optional<Regressor>> friction_;
   std::vector<PayloadColumns> payloads_;
   std::vector<Eigen::Index> gains_;
+  Eigen::Index first_law_ = 0;  // of the columns: base parameters and friction stand before it
   std::vector<RegressorColumn> columns_;
   std::vector<std::vector<Eigen::Index>> own_;
 };

@@ -29,7 +29,7 @@ double kinetic_energy(SerialChain const& chain, JointVector const& parameters, J
     auto const link = link_of(parameters, i);
     energy += 0.5 * link.mass * v.squaredNorm() + v.dot(cross(w, link.first_moment)) + 0.5 * w.dot(link.inertia * w);
   }
-  if (parameters.size() > n_links) energy += 0.5 * parameters.tail(n).dot(dq.cwiseAbs2());
+  if (parameters.size() > n_links) energy += 0.5 * dq.dot(chain.drive_matrix(parameters.tail(n)) * dq);
   return energy;
 }
 

@@ -21,7 +21,7 @@ Wrench of_unit_acceleration(LinkInertia const& body, JointKind kind) {
 
 ArmEquation::ArmEquation(SerialChain const& chain, JointVector const& parameters)
     : chain_(chain),
-      drives_(Eigen::VectorXd::Zero(chain.size())),
+      drives_(Eigen::MatrixXd::Zero(chain.size(), chain.size())),
       still_(Eigen::VectorXd::Zero(chain.size())),
       cos_alpha_(chain.joints.size()),
       sin_alpha_(chain.joints.size()),
@@ -37,7 +37,7 @@ ArmEquation::ArmEquation(SerialChain const& chain, JointVector const& parameters
     LinkVector const numbers = parameters.segment<numbers_per_link>(numbers_per_link * i);
     links_.push_back(LinkInertia::from_vector(numbers));
   }
-  if (parameters.size() > n_links) drives_ = parameters.tail(n);
+  if (parameters.size() > n_links) drives_ = chain.drive_matrix(parameters.tail(n));
   composite_ = links_;
   std::vector<double> alpha;
   for (auto const& joint : chain.joints) alpha.push_back(joint.alpha);
@@ -69,10 +69,10 @@ void ArmEquation::set_mass() {
   for (Index column = 0; column < size(); ++column) {
     auto at = static_cast<std::size_t>(column);
     Wrench wrench = of_unit_acceleration(composite_[at], chain_.joints[at].kind);
-    mass_(column, column) = wrench.along(chain_.joints[at].kind) + drives_[column];
+    mass_(column, column) = wrench.along(chain_.joints[at].kind) + drives_(column, column);
     for (Index row = column - 1; row >= 0; --row) {
       wrench = wrench.seen_from(motion_[static_cast<std::size_t>(row) + 1].pose);
-      mass_(row, column) = wrench.along(chain_.joints[static_cast<std::size_t>(row)].kind);
+      mass_(row, column) = wrench.along(chain_.joints[static_cast<std::size_t>(row)].kind) + drives_(row, column);
       mass_(column, row) = mass_(row, column);
     }
   }

@@ -33,7 +33,8 @@ class ArmEquation {
 
   SerialChain chain_;
   std::vector<LinkInertia> links_;
-  Eigen::VectorXd drives_, still_;
+  Eigen::MatrixXd drives_;
+  Eigen::VectorXd still_;
   std::vector<double> cos_alpha_, sin_alpha_;
   // of the instant
   std::vector<double> angle_, cosine_, sine_;

@@ -41,16 +41,19 @@ kernels::ArmPlan plan_of(SerialChain const& chain, BaseParameters const& base,
     if (column < n_links)
       joints[place(column / numbers_per_link)].link_columns |=
           static_cast<std::uint16_t>(1U << (column % numbers_per_link));
-    else
+    else if (!chain.is_coupled(column - n_links))
       joints[place(column - n_links)].own_columns |= kernels::own_acceleration;
   }
   return {std::move(joints), {chain.gravity.x(), chain.gravity.y(), chain.gravity.z()}};
 }
 
-std::vector<ArmColumn> columns_of(BaseParameters const& base, Index joint, FrictionColumns const& friction) {
+std::vector<ArmColumn> columns_of(SerialChain const& chain, BaseParameters const& base, Index joint,
+                                  FrictionColumns const& friction) {
   std::vector<ArmColumn> columns;
   for (Index k = 0; k < base.size(); ++k) {
     auto const& parameter = base.parameters()[place(k)];
+    Index const motor = parameter.column - numbers_per_link * chain.size();
+    if (motor >= 0 && chain.is_coupled(motor)) continue;
     if (parameter.first_row <= joint && joint <= parameter.last_row) columns.push_back({parameter.name, k});
   }
   std::string const number = std::to_string(joint + 1);
@@ -68,7 +71,7 @@ std::vector<ArmColumn> columns_of(BaseParameters const& base, Index joint, Frict
 ArmRows::ArmRows(SerialChain const& chain, BaseParameters const& base, std::span<FrictionColumns const> friction)
     : plan_(plan_of(chain, base, friction)) {
   for (Index joint = 0; joint < chain.size(); ++joint) {
-    columns_.push_back(columns_of(base, joint, friction[place(joint)]));
+    columns_.push_back(columns_of(chain, base, joint, friction[place(joint)]));
     TORQUESCOPE_ENSURE(columns_.back().size() + 1 == plan_.row_width(place(joint)));
   }
 }

@@ -3,7 +3,8 @@
 //
 // Equation   tau_j = sum over base parameters k with first_row <= j <= last_row of Phi_jk chi_k + friction of joint j
 // Columns    of joint j: the base parameters that act on it in their order (links, then its drive inertia if that is a
-//            base parameter), then viscous dq, Coulomb sign(dq) with sign(0) = 0, offset 1, as asked for
+//            base parameter), then viscous dq, Coulomb sign(dq) with sign(0) = 0, offset 1, as asked for. Not those of
+//            drives that turn with several joints (SerialChain::is_coupled)
 // Threads    immutable after the constructor
 // Source     Gautier and Khalil 1990, doi:10.1109/70.56655 (the columns); kernels/arm_rows.hpp (how they are made)
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/contract.hpp"
 #include "engine/base/random_stream.hpp"
@@ -31,6 +32,12 @@ SerialChain scaled(SerialChain chain, double length) {
     joint.d /= length;
   }
   if (double const g = chain.gravity.norm(); g > 0.0) chain.gravity /= g;
+  if (chain.has_coupled_drives()) {
+    Eigen::VectorXd units = Eigen::VectorXd::Ones(chain.size());  // of a joint's position, in the new one
+    for (Index j = 0; j < chain.size(); ++j)
+      if (chain.joints[static_cast<std::size_t>(j)].kind == JointKind::prismatic) units[j] = length;
+    chain.transmission = (units.cwiseInverse().asDiagonal() * chain.transmission * units.asDiagonal()).eval();
+  }
   return chain;
 }
 
@@ -43,6 +50,17 @@ int missing_lengths(SerialChain const& chain, Index column) {
   auto const number = static_cast<LinkNumber>(column % numbers_per_link);
   if (number == m) return 2;
   return number == mx || number == my || number == mz ? 1 : 0;
+}
+
+// joints that feel a drive: first and last
+std::pair<Index, Index> rows_of_drive(SerialChain const& chain, Index motor) {
+  Index first = motor, last = motor;
+  for (Index j = 0; chain.has_coupled_drives() && j < chain.size(); ++j) {
+    if (chain.transmission(motor, j) == 0.0) continue;
+    first = std::min(first, j);
+    last = std::max(last, j);
+  }
+  return {first, last};
 }
 
 // rows of random motions, three times as many as there are columns
@@ -102,8 +120,9 @@ BaseParameters::BaseParameters(SerialChain const& chain, DriveInertias drives)
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     Index const stands = columns_[k];
     bool const is_drive = stands >= n_links;
-    Index const last = is_drive ? stands - n_links : stands / numbers_per_link;
-    BaseParameter parameter{"", unit_of(chain, stands), stands, is_drive ? last : 0, last, {}};
+    auto const [first, last] =
+        is_drive ? rows_of_drive(chain, stands - n_links) : std::pair(Index{0}, stands / numbers_per_link);
+    BaseParameter parameter{"", unit_of(chain, stands), stands, first, last, {}};
     for (Index column = 0; column < standard_size_; ++column) {
       double const factor = basis.sums(static_cast<Index>(k), column);
       int const lengths = missing_lengths(chain, column) - missing_lengths(chain, stands);

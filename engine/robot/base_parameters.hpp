@@ -27,7 +27,7 @@ struct BaseParameter {
   std::string name;                   // "xxr2", "mx3", "drive_3"
   std::string unit;                   // "kg m^2"
   Eigen::Index column;                // the standard column that stands
-  Eigen::Index first_row, last_row;   // rows of the regressor that have this column: 0 to its link's, or a drive's own
+  Eigen::Index first_row, last_row;   // rows of the regressor that have this column: 0 to its link's, or a drive's
   std::vector<GatheredTerm> gathers;  // what joins it, without itself
 };
 

@@ -68,7 +68,7 @@ Eigen::VectorXd inverse_dynamics(SerialChain const& chain, JointVector const& pa
     tau[i] = wrench.along(chain.joints[at].kind);
     carried = wrench.seen_from(motion[at].pose);
   }
-  if (parameters.size() > n_links) tau += parameters.tail(n).cwiseProduct(ddq);
+  if (parameters.size() > n_links) tau += chain.drive_matrix(parameters.tail(n)) * ddq;
   return tau;
 }
 
@@ -86,7 +86,12 @@ Eigen::MatrixXd arm_regressor(SerialChain const& chain, JointVector const& q, Jo
       if (row > 0) columns = carried_inward(motion[at].pose, columns);
     }
   }
-  if (drives == DriveInertias::included) phi.rightCols(n).diagonal() = ddq;
+  if (drives == DriveInertias::included) {
+    if (chain.has_coupled_drives())
+      phi.rightCols(n) = chain.transmission.transpose() * (chain.transmission * ddq).asDiagonal();
+    else
+      phi.rightCols(n).diagonal() = ddq;
+  }
   return phi;
 }
 

@@ -6,6 +6,11 @@
 
 namespace torquescope {
 
+Eigen::MatrixXd SerialChain::drive_matrix(Eigen::Ref<Eigen::VectorXd const> const& inertias) const {
+  if (!has_coupled_drives()) return inertias.asDiagonal();
+  return transmission.transpose() * inertias.asDiagonal() * transmission;
+}
+
 FramePose joint_pose(ChainJoint const& joint, double q) {
   bool const turns = joint.kind == JointKind::revolute;
   double const theta = joint.offset + (turns ? q : 0.0), d = joint.d + (turns ? 0.0 : q);

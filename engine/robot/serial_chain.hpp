@@ -3,6 +3,7 @@
 //
 // Equation   T(i-1, i) = Rx(alpha_i) Tx(a_i) Rz(theta_i) Tz(d_i)
 //            revolute   theta_i = q_i + offset_i, d_i constant; prismatic   theta_i = offset_i, d_i = d_i + q_i
+//            motors     turn by T q on the joint side; what they need is felt at the joints as T' of it
 // Frames     z_i is the axis of joint i; link i is fixed in frame i; frame 0 is the base. Joints count from 0 in code
 //            and from 1 in names and texts
 // Units      SI; the generalised force is N m, or N at a prismatic joint
@@ -44,11 +45,19 @@ struct SerialChain {
   Eigen::Vector3d gravity{0.0, 0.0, -9.81};  // m/s^2 in frame 0
   FramePose base{};                          // frame 0 seen from the file's base frame
   FramePose flange{};                        // the tool's frame seen from the last link's
+  Eigen::MatrixXd transmission{};            // T, N x N; empty: every motor turns its own joint alone
   std::vector<std::string> remarks{};        // sentences: what the reader did on its own
   std::vector<std::string> warnings{};       // the same of what may be wrong, with file and line
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(joints.size()); }
   bool has_inertias() const { return !links.empty(); }
+  bool has_coupled_drives() const { return transmission.size() > 0; }
+  // whether motor i turns with another joint than its own
+  bool is_coupled(Eigen::Index motor) const {
+    return has_coupled_drives() && (transmission.row(motor).array() != 0.0).count() > 1;
+  }
+  // torque on the joints, of drives with these inertias: T' diag(inertias) T
+  Eigen::MatrixXd drive_matrix(Eigen::Ref<Eigen::VectorXd const> const& inertias) const;
 };
 
 // frame i seen from frame i - 1 with joint i at q

@@ -9,13 +9,14 @@
 #include <span>
 #include <utility>
 
+#include "engine/arms/law_shapes.hpp"
 #include "engine/base/digest.hpp"
 #include "engine/data/arm_recording.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/filter_suggestion.hpp"
 #include "engine/health/joined_findings.hpp"
 #include "engine/health/make_arm_recording.hpp"
-#include "engine/pipeline/reversal_mask.hpp"
+#include "engine/pipeline/arm_reversals.hpp"
 #include "engine/problem/arm_regression.hpp"
 #include "engine/problem/recorded_arm.hpp"
 #include "engine/problem/recorded_rows.hpp"
@@ -49,6 +50,8 @@ std::string digest_of(SerialChain const& chain) {
     LinkVector const numbers = link.vector();
     digest.numbers({numbers.data(), static_cast<std::size_t>(numbers.size())});
   }
+  if (chain.has_coupled_drives())
+    digest.numbers({chain.transmission.data(), static_cast<std::size_t>(chain.transmission.size())});
   return digest.hex();
 }
 
@@ -157,7 +160,6 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
   whole.rate_hz = joints.front().rate_hz;
   set.n_samples.push_back(static_cast<std::size_t>(joints.front().time_s.size()));
   std::vector<Motion> motion;
-  std::vector<std::vector<bool>> moves;
   if (track != nullptr) track->joints = joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     auto& joint = joints[j];
@@ -170,8 +172,8 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
     for (auto& warning : excitation_warnings(facts, unit))
       whole.warnings.push_back({warning.topic, joint_title(j, names) + ": " + warning.text});
     set.excitation.push_back(facts);
-    moves.push_back(moving_samples(motion.back().dq, motion.back().rate_hz, parallel_cutoff_of(parts.filter)));
   }
+  auto const moves = samples_one_way(model, motion, parallel_cutoff_of(parts.filter));
   if (track != nullptr) track->moves = moves;
   constexpr Index most_samples = 1200;
   if (samples != nullptr && !file.payload)
@@ -218,6 +220,11 @@ void stack(std::vector<RecordedRows> const& rows, Experiment::Parts const& parts
 }
 
 void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
+  auto& model = parts.arm->model;
+  if (!model.laws().empty()) {
+    ArmFilter const filter{parts.filter, section_or_empty(parts.job, "filter")};
+    model = model.with_laws(refined_laws(model, train, filter));
+  }
   if (parts.arm->keeps_channels) {
     parts.arm->train = train;
     parts.arm->validate = unseen;
@@ -254,11 +261,12 @@ ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Paylo
     chain.gravity = chain.base.rotation.transpose() * Eigen::Vector3d::Map(options.gravity.data());
   }
   ArmTerms terms{options.friction};
-  read_joint_friction(job, chain.joints.size(), terms);
+  chain.transmission = read_joint_models(job, chain.joints.size(), terms);
   terms.drives = options.drive_inertia ? DriveInertias::included : DriveInertias::left_out;
   terms.velocity_deadband = options.velocity_deadband;
   terms.payloads = payloads;
   terms.drive_gains = options.drive_gains;
+  terms.laws = read_arm_laws(job, chain);
   std::string const sha256 = digest_of(chain);
   ArmParts arm{ArmModel(std::move(chain), terms, section_or_empty(job, "model")), options.robot, sha256};
   arm.otherwise = std::move(otherwise);

@@ -1,7 +1,7 @@
 #pragma once
 // From a job with model.robot to the parts of an Experiment: the arm, its recordings joint by joint, and their rows.
 //
-// Errors     those of read_robot(), read_joint_friction(), ArmModel, make_arm_recording() and the filters
+// Errors     those of read_robot(), read_joint_models(), ArmModel, make_arm_recording() and the filters
 // Threads    free functions
 
 #include <vector>

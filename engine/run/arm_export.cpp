@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/dense_solvers.hpp"
 #include "engine/base/error.hpp"
@@ -62,6 +63,20 @@ Eigen::MatrixXd base_root(Eigen::MatrixXd const& information, Index p) {
                    .help = "record a motion that moves every joint, and identify again"};
   });
   return factor->lower().transpose() * lengths.head(p).asDiagonal();
+}
+
+// "motor 6 turns by q6 + 0.5 q5", of coupled drives: no robot file has a place for it
+std::vector<std::string> drive_words(SerialChain const& chain) {
+  std::vector<std::string> words;
+  for (Index m = 0; m < chain.size(); ++m) {
+    if (!chain.is_coupled(m)) continue;
+    std::string text = fmt::format("Motor {0} turns by q{0}", m + 1);
+    for (Index j = 0; j < chain.size(); ++j)
+      if (double const turns = chain.transmission(m, j); j != m && turns != 0.0)
+        text += fmt::format(" {} {:g} q{}", turns < 0.0 ? "-" : "+", std::abs(turns), j + 1);
+    words.push_back(text + ": its inertia and friction are those at that angle.");
+  }
+  return words;
 }
 
 std::string listed(std::vector<std::string> const& names) { return fmt::format("{}", fmt::join(names, ", ")); }
@@ -125,6 +140,12 @@ IdentifiedArm read_identified_arm(ResultReader const& reader) {
   }
   expect(found && arm.information.rows() >= static_cast<Index>(names.size()), reader,
          "has other base parameters than its arm");
+  if (reader.exists("/robot/shapes")) {
+    auto const shapes = reader.texts("/robot/shapes");
+    auto const values = reader.numbers("/robot/shape_values").values;
+    for (std::size_t k = 0; k < std::min(shapes.size(), values.size()); ++k)
+      arm.law_words.push_back(fmt::format("{} = {:.6g}", shapes[k], values[k]));
+  }
   arm.chain = chain;
   arm.has_limits = robot.has_limits;
   return arm;
@@ -194,10 +215,12 @@ ArmExport export_arm(IdentifiedArm const& arm, ArmEstimate const& estimate, std:
   out.distance = found.distance;
   out.notes.push_back(found.words);
   for (auto const& words : words_of(base)) out.notes.push_back(words);
+  for (auto const& words : drive_words(chain)) out.notes.push_back(words);
   if (near == NearBodies::robot_file) out.notes.emplace_back("What is chosen is near the robot file's inertias.");
   std::vector<std::string> beside;
   for (Index k = base.size(); k < values.size(); ++k)
     beside.push_back(fmt::format("{} = {:.6g}", names[static_cast<std::size_t>(k)], values[k]));
+  beside.insert(beside.end(), arm.law_words.begin(), arm.law_words.end());
   if (!beside.empty()) out.notes.push_back("Beside the links: " + listed(beside) + ".");
   for (auto const& writer : robot_writers())
     if (writer.name == format) out.text = writer.write(chain, out.notes);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "engine/arms/law_shapes.hpp"
 #include "engine/problem/arm_accuracy.hpp"
 #include "engine/robot/gather_text.hpp"
 #include "engine/run/arm_findings.hpp"
@@ -50,6 +51,21 @@ std::vector<std::string> joint_names(SerialChain const& chain) {
   return names;
 }
 
+// laws beside the rigid arm: their shapes; what is linear in them stands among the parameters
+void write_laws(ResultWriter& writer, ArmModel const& model) {
+  std::vector<std::string> names;
+  std::vector<double> values;
+  for (auto const& law : model.laws())
+    for (std::size_t k = 0; k < law.shape.size(); ++k) {
+      names.push_back(shape_name(law, k));
+      values.push_back(law.shape[k]);
+    }
+  if (names.empty()) return;
+  writer.texts("/robot/shapes", names,
+               {"1", "shapes of the laws of [[model.effects]], with the number of their joint"});
+  writer.numbers("/robot/shape_values", {values.size()}, values, {"SI", "their values, refined in the fit"});
+}
+
 void write_robot(ResultWriter& writer, ArmParts const& arm) {
   auto const& chain = arm.model.chain();
   auto const& base = arm.model.base();
@@ -61,6 +77,7 @@ void write_robot(ResultWriter& writer, ArmParts const& arm) {
     gathers.push_back(gather_text(base, k));
   }
   write_robot_tables(writer, chain);
+  write_laws(writer, arm.model);
   writer.attribute("/robot", "file", arm.robot_file);
   writer.attribute("/robot", "sha256", arm.sha256);
   write_names(writer, "/robot", "parameter", parameters);

@@ -320,7 +320,7 @@ void begin_rollouts_of(Experiment::Parts& parts, Experiment::Purpose purpose, st
 // an arm is not simulated joint by joint
 void refuse_rollouts_of_arm(Experiment::Parts const& parts, std::vector<Problem>& problems) {
   char const* const help = "rollouts are of one joint: name its columns in a job with model.terms";
-  for (char const* name : {"loop", "model.effects", "model.given"})
+  for (char const* name : {"loop", "model.given"})
     if (Section const* section = parts.job.find(name))
       problems.push_back(problem_at(*section, "", fmt::format("[{}] in the job of an arm", name), help));
   auto const sections = parts.job.all("estimator");
@@ -388,6 +388,9 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
   }
   if (!is_arm) refuse_arm_keys(job, parts->estimators, problems);
+  if (parts->arm && parts->arm->model.chain().has_coupled_drives())
+    refuse_beside_coupled_drives(job, parts->estimators, problems);
+  if (parts->arm && !parts->arm->model.laws().empty()) refuse_beside_laws(job, parts->estimators, problems);
   bool const simulates = job.find("simulate") != nullptr;
   SimulationPlan plan;
   ArmSimulationPlan arm_plan;

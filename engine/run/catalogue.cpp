@@ -165,8 +165,12 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
   entries.push_back(
       {"model.effects",
        "section",
-       "one effect beside model.terms, for rollouts; written [[model.effects]], as often as there are effects",
-       {"name = \"cogging\", and where its parameters begin: cogging_order = 7.0, ..."},
+       "one effect beside model.terms, for rollouts; of an arm, at one joint; written [[model.effects]], as often as "
+       "there are effects",
+       {"name = \"cogging\", and where its parameters begin: cogging_order = 7.0, ...",
+        "joint = 2, name = \"stribeck\"    of an arm: its shapes are refined in the fit, from the grid of `diagnose`, "
+        "or "
+        "from all of them where they stand: stribeck_speed = 0.03, stribeck_exponent = 1.0"},
        {}});
   add_section<LoopOptions>(entries);
   add_section<EstimatorOptions>(entries);

@@ -7,6 +7,7 @@
 #include "engine/health/finding_text.hpp"
 #include "engine/run/json_values.hpp"
 #include "engine/run/loop_json.hpp"
+#include "engine/words/job_lines.hpp"
 #include "engine/words/verdict_lines.hpp"
 
 namespace torquescope {
@@ -211,6 +212,8 @@ std::string diagnosis_json(Diagnosis const& diagnosis) {
                    {"reason", diagnosis.reason},
                    {"findings", json_list(diagnosis.findings, finding_json)},
                    {"joints", json_list(diagnosis.joints, joint_json)}};
+  for (std::size_t i = 0; diagnosis.arm && i < diagnosis.joints.size(); ++i)
+    document["joints"][i]["job_lines"] = job_lines(diagnosis.joints[i]);
   if (diagnosis.arm)
     document["arm"] = {
         {"effects", json_list(diagnosis.arm->effects, [](NamedEffect const& one) { return effect_json(one, 0); })},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/arms/law_shapes.hpp"
 #include "engine/base/digest.hpp"
 #include "engine/data/arm_recording.hpp"
 #include "engine/data/filter_checks.hpp"
@@ -197,12 +198,34 @@ std::vector<std::string> Experiment::warnings() const {
   return lines;
 }
 
+namespace {
+
+// "stribeck of joint 2: stribeck_speed = 0.031 rad/s, stribeck_exponent = 1.9, refined in the fit"
+std::string law_words(HeldLaw const& law, JointKind kind) {
+  std::string text = fmt::format("{} of joint {}", law.effect->name(), law.joint + 1);
+  for (std::size_t k = 0; k < law.shape.size(); ++k) {
+    auto const& parameter = law.effect->parameters()[law.effect->n_linear() + k];
+    std::string const unit = parameter.unit_for(kind);
+    text += fmt::format("{} {} = {:.4g}{}", k == 0 ? ":" : ",", parameter.name, law.shape[k],
+                        unit == "1" ? "" : " " + unit);
+  }
+  if (!law.shape.empty()) text += ", refined in the fit";
+  for (std::size_t const k : shapes_at_bounds(law))
+    text += fmt::format("; {} ends at the bound of what is plausible", shape_name(law, k));
+  return text;
+}
+
+}  // namespace
+
 std::vector<std::string> Experiment::remarks() const {
   std::vector<std::string> lines;
   if (parts_->arm)
     for (auto const& remark : parts_->arm->model.chain().remarks) lines.push_back("robot: " + remark);
   for (auto const& finding : findings())
     if (finding.grade == Grade::note) lines.push_back(fmt::format("{}: {}", finding.recording, sentence_of(finding)));
+  if (parts_->arm)
+    for (auto const& law : parts_->arm->model.laws())
+      lines.push_back(law_words(law, parts_->arm->model.chain().joints[law.joint].kind));
   if (parts_->filter_is_chosen)
     lines.push_back(fmt::format(
         "filter (no [filter]): cutoff_hz = {:g}, parallel_cutoff_hz = {:g}, decimate_to_hz = {:g}, chosen from {}",

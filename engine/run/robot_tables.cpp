@@ -90,6 +90,8 @@ void write_robot_tables(ResultWriter& writer, SerialChain const& chain) {
   put_pose(poses, 0, chain.base);
   put_pose(poses, 1, chain.flange);
   write_rows(writer, "/robot/poses", poses, {"m", "frame 0 and the tool: rotation row by row, position"});
+  if (chain.has_coupled_drives())
+    write_rows(writer, "/robot/transmission", chain.transmission, {"SI", "turns of each motor per turn of each joint"});
   if (!chain.has_inertias()) return;
   RowMajor links(chain.size(), numbers_per_link);
   for (Index i = 0; i < chain.size(); ++i) links.row(i) = chain.links[static_cast<std::size_t>(i)].vector().transpose();
@@ -122,6 +124,8 @@ StoredRobot read_robot_tables(ResultReader const& reader) {
   RowMajor const poses = read_rows(reader, "/robot/poses", 2, pose_columns);
   chain.base = pose_of(poses, 0);
   chain.flange = pose_of(poses, 1);
+  if (reader.exists("/robot/transmission"))
+    chain.transmission = read_rows(reader, "/robot/transmission", chain.size(), chain.size());
   if (!reader.exists("/robot/links")) return robot;
   RowMajor const links = read_rows(reader, "/robot/links", chain.size(), numbers_per_link);
   for (Index i = 0; i < chain.size(); ++i) chain.links.push_back(LinkInertia::from_vector(links.row(i).transpose()));

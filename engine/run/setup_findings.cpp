@@ -111,9 +111,15 @@ void add_limits(Experiment::Parts const& parts, std::vector<Finding>& findings) 
   }
 }
 
+// as the searches here know it, whose frictions are those of single joints
+SerialChain with_own_drives(SerialChain chain) {
+  chain.transmission.resize(0, 0);
+  return chain;
+}
+
 // a load picked up or let go on the way
 void add_link_change(Experiment::Parts const& parts, std::vector<Finding>& findings) {
-  auto const change = find_link_change(parts.arm->samples, parts.arm->model.chain());
+  auto const change = find_link_change(parts.arm->samples, with_own_drives(parts.arm->model.chain()));
   if (!change) return;
   Finding finding = finding_of(parts, FindingKind::arm_changes_at);
   if (change->recording < parts.train.recordings.size())
@@ -187,7 +193,7 @@ std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOpt
   constexpr Index fewest = 200;
   if (arm.samples.size() < fewest) return findings;
   add_limits(parts, findings);
-  SetupSearch const found = search_setup(arm.samples, arm.model.chain(), chain_otherwise(arm));
+  SetupSearch const found = search_setup(arm.samples, with_own_drives(arm.model.chain()), chain_otherwise(arm));
   if (found.steps.empty()) {
     add_link_change(parts, findings);
     return findings;

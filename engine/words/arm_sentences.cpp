@@ -64,6 +64,19 @@ std::string joints_clause(std::vector<JointDiagnosis> const& joints, Verdict ver
 
 }  // namespace
 
+namespace {
+
+// "4 s to 9 s of monday.csv", "from 4 s of monday.csv on", "up to 9 s of monday.csv"; "" of all of it
+std::string when_text(std::string const& recording, double from_s, double until_s) {
+  bool const has_begin = std::isfinite(from_s), has_end = std::isfinite(until_s);
+  if (has_begin && has_end) return fmt::format("{} of {}", between_text(from_s, until_s, "s"), recording);
+  if (has_begin) return fmt::format("from {} of {} on", quantity_text(from_s, "s"), recording);
+  if (has_end) return fmt::format("up to {} of {}", quantity_text(until_s, "s"), recording);
+  return "";
+}
+
+}  // namespace
+
 std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& facts) {
   std::vector<std::string> values, alike{effect.title};
   for (auto const& one : effect.parameters) {
@@ -72,19 +85,20 @@ std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& f
     if (one.unit != "s") values.push_back(fmt::format("{} {}{}", one.name, quantity_text(one.value, one.unit), spread));
   }
   for (auto const& other : effect.equivalent) alike.push_back(in_words(other));
-  bool const has_begin = std::isfinite(facts.from_s), has_end = std::isfinite(facts.until_s);
-  std::string when;
-  if (has_begin && has_end)
-    when = fmt::format("{} of {} ", between_text(facts.from_s, facts.until_s, "s"), facts.recording);
-  if (has_begin && !has_end) when = fmt::format("from {} of {} on ", quantity_text(facts.from_s, "s"), facts.recording);
-  if (!has_begin && has_end) when = fmt::format("up to {} of {} ", quantity_text(facts.until_s, "s"), facts.recording);
-  when += "all joints feel ";
+  std::string when = when_text(facts.recording, facts.from_s, facts.until_s);
+  when += when.empty() ? "all joints feel " : " all joints feel ";
   when.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(when.front())));
   std::string text = fmt::format("{}{} ({}): on rows left out relerr over all joints falls from {} to {}", when,
                                  name_list(alike, "or"), fmt::join(values, ", "), percent_text(facts.before),
                                  percent_text(facts.after));
   if (facts.unseen_before > 0.0)
     text += fmt::format(", unseen from {} to {}", percent_text(facts.unseen_before), percent_text(facts.unseen_after));
+  std::vector<std::string> there;
+  for (auto const& one : facts.unseen) {
+    std::string const own = when_text(one.recording, one.from_s, one.until_s);
+    there.push_back(own.empty() ? "in all of " + one.recording : own);
+  }
+  if (!there.empty()) text += fmt::format(" ({})", name_list(there, "and"));
   return text + ".";
 }
 

@@ -21,6 +21,12 @@ struct WholeArmFacts {
   double from_s = 0.0, until_s = 0.0;              // until: infinite where it acts to the end
   double before = 0.0, after = 0.0;                // relerr on rows left out
   double unseen_before = 0.0, unseen_after = 0.0;  // 0: it acts in no unseen recording
+  // of an event: where it acts in unseen recordings
+  struct There {
+    std::string recording{};
+    double from_s = 0.0, until_s = 0.0;
+  };
+  std::vector<There> unseen{};
 };
 std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& facts);
 

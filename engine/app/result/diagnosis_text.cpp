@@ -12,6 +12,7 @@
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 #include "engine/base/quantity_text.hpp"
+#include "engine/words/job_lines.hpp"
 #include "engine/words/verdict_lines.hpp"
 
 namespace torquescope {
@@ -158,9 +159,12 @@ std::string arm_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
   VerdictLines lines = arm_lines(diagnosis);
   if (lines.what.empty()) lines.what = printable(diagnosis.finding);
   std::string text = lines_text(mark_of(diagnosis.verdict, "", utf8, ink, "whole arm"), lines);
-  for (JointDiagnosis const* joint : by_weight(diagnosis.joints))
+  for (JointDiagnosis const* joint : by_weight(diagnosis.joints)) {
     text += lines_text(mark_of(*joint, joint->verdict, utf8, ink, which_joint(*joint)),
                        verdict_lines(diagnosis, *joint, joint->verdict));
+    for (auto const& law : job_lines(*joint))
+      text += line_text("    ", fmt::format("hold it in run: {}", fmt::join(law, "   ")));
+  }
   return text;
 }
 

@@ -284,7 +284,8 @@ class Verdict(unittest.TestCase):
 
     def test_what_was_not_measured_is_left_out(self):
         self.assertEqual(
-            words_of_diagnosis.big_numbers(joint("insufficient")), [("12 %", "", "error in training, rows moving one way")]
+            words_of_diagnosis.big_numbers(joint("insufficient")),
+            [("12 %", "", "error in training, rows moving one way")],
         )
         for kind in support.DIAGNOSES:
             found = re.findall(r"\b[nN][aA][nN]\b|\bNone\b|\binf\b", read_by_a_person(kind))

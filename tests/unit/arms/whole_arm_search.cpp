@@ -135,9 +135,25 @@ TEST_F(WholeArmSearch, FindsAPayloadItsInstantAndItsParameters) {
   EXPECT_NEAR(one.values[1], 1.5 * 0.2, 4.0 * one.errors[1] + 1e-3);
   EXPECT_NEAR(one.values[2], 0.0, 4.0 * one.errors[2] + 1e-3);
   EXPECT_GT(one.explained, 0.9);
-  ASSERT_EQ(one.acts_in.size(), 1u);
-  EXPECT_FALSE(one.acts_in[0]) << "the other recording begins without it";
+  ASSERT_EQ(one.unseen_times.size(), 1u);
+  EXPECT_FALSE(one.unseen_times[0]) << "the other recording is without it";
   EXPECT_LT(one.unseen_after, one.unseen_before);
+}
+
+// picked up at another instant, and put down again
+TEST_F(WholeArmSearch, GivesAPayloadInstantsOfItsOwnInUnseenRecordings) {
+  auto const found = answer({recorded({chain, 1.5, 11.0, 1e9}, 1)},
+                            {recorded({chain, 1.5, 19.0, 1e9}, 2), recorded({chain, 1.5, 6.0, 14.0}, 3)});
+  ASSERT_EQ(found.accepted.size(), 1u);
+  auto const& one = found.accepted.front();
+  EXPECT_EQ(one.law.effect->name(), "payload_picked_up");
+  ASSERT_EQ(one.unseen_times.size(), 2u);
+  ASSERT_TRUE(one.unseen_times[0] && one.unseen_times[1]);
+  EXPECT_NEAR(one.unseen_times[0]->from_s, 19.0, 0.15);
+  EXPECT_TRUE(std::isinf(one.unseen_times[0]->until_s));
+  EXPECT_NEAR(one.unseen_times[1]->from_s, 6.0, 0.15);
+  EXPECT_NEAR(one.unseen_times[1]->until_s, 14.0, 0.15);
+  EXPECT_LT(one.unseen_after, 0.3 * one.unseen_before);
 }
 
 TEST_F(WholeArmSearch, FindsAForceForAWhile) {

@@ -41,6 +41,29 @@ TEST(MassMatrix, IsTwiceTheKineticEnergy) {
   }
 }
 
+// the last motor turns with the joint before its own
+TEST(MassMatrix, OfCoupledDrivesIsWhatInverseDynamicsAndColumnsSay) {
+  for (std::uint32_t number = 0; number < 50; ++number) {
+    auto arm = test::random_arm(number, false);
+    Eigen::Index const n = arm.chain.size();
+    if (n < 2) continue;
+    arm.chain.transmission = Eigen::MatrixXd::Identity(n, n);
+    arm.chain.transmission(n - 1, n - 2) = 0.7;
+    auto const chi = standard_parameters(arm.chain, DriveInertias::included);
+    auto const torque = [&](Eigen::VectorXd const& ddq) {
+      return inverse_dynamics(arm.chain, chi, arm.q, arm.dq, ddq);
+    };
+    Eigen::VectorXd const pushed = torque(arm.ddq);
+    EXPECT_LT((mass_matrix(arm.chain, chi, arm.q) * arm.ddq - (pushed - torque(0.0 * arm.ddq))).norm(),
+              1e-11 * pushed.norm());
+    EXPECT_LT((arm_regressor(arm.chain, arm.q, arm.dq, arm.ddq, DriveInertias::included) * chi - pushed).norm(),
+              1e-11 * pushed.norm());
+    BaseParameters const base(arm.chain, DriveInertias::included);
+    Eigen::VectorXd const reduced = base.to_standard(base.from_standard(chi));
+    EXPECT_LT((inverse_dynamics(arm.chain, reduced, arm.q, arm.dq, arm.ddq) - pushed).norm(), 1e-9 * pushed.norm());
+  }
+}
+
 TEST(MassMatrix, OfALinkOfNegativeInertiaIsNotPositiveDefinite) {
   auto const arm = test::random_arm(3, false);
   auto const chi = standard_parameters(arm.chain, DriveInertias::left_out);
