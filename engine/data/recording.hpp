@@ -68,6 +68,7 @@ struct Recording {
   Eigen::VectorXd velocity{};          // optional: used instead of differentiating the position
   Eigen::VectorXd acceleration{};      // optional, only together with velocity
   Eigen::VectorXd simulated_torque{};  // optional: the user's own simulator on the same motion
+  std::string torque_unit{};           // "mA": the column's, where torque_per_unit does not say more; "": N m or N
   // optional, for rollouts: that simulator's motion from the reference; what is added to the drive's command, in the
   // column's own unit; torque from outside; whether the drive is on (1) or off (0)
   Eigen::VectorXd simulated_position{};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/torque_unit.hpp"
 #include "engine/decision/decision_verdict.hpp"
 #include "engine/decision/decision_words.hpp"
 #include "engine/decision/joint_decision.hpp"
@@ -16,6 +17,7 @@
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/loop_names.hpp"
 #include "engine/diagnose/neighbour_load.hpp"
+#include "engine/diagnose/recorded_unit.hpp"
 #include "engine/diagnose/strip_account.hpp"
 #include "engine/locate/largest_parts.hpp"
 #include "engine/locate/mismatch_map.hpp"
@@ -48,7 +50,7 @@ class AllRowsWork {
       : input_(input), progress_(progress), further_(further), first_look_(input) {
     bool const revolute = input.regressor.joint() == JointKind::revolute;
     joint_.unit_position = revolute ? "rad" : "m";
-    joint_.unit_torque = revolute ? "N m" : "N";
+    joint_.unit_torque = in_torque_unit(revolute ? "N m" : "N", input.train.torque_unit);
     joint_.joint = input.joint;
     joint_.name = input.joint_name;
     joint_.rows = "all";
@@ -218,6 +220,7 @@ class AllRowsWork {
     if (is_left && decision.final_replicates.cols() > 0)
       joint_.unexplained = largest_parts(mismatch_map(mismatch_rows(decision.final, decision.final_replicates),
                                                       decision.baseline.model->reference().scales, input_.threads));
+    tell_in_recorded_unit(joint_);
     std::vector<std::string> closest;
     for (auto const& effect : joint_.effects) closest.push_back(effect.name);
     if (!closest.empty())
@@ -251,6 +254,7 @@ class AllRowsWork {
     MismatchRows const rows = mismatch_rows(decision.final, decision.final_replicates);
     for (std::size_t i = 0; i < decision.facts.accepted.size(); ++i) tell_law(decision, rows, i);
     if (decision.facts.delay.is_named) tell_delay(decision.facts.delay);
+    tell_in_recorded_unit(joint_);
     mark_equivalent(joint_.candidates, joint_.effects);
     for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
   }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/torque_unit.hpp"
 #include "engine/words/sentences.hpp"
 
 namespace torquescope {
@@ -25,7 +26,7 @@ JointOutcome hopeless_joint(DiagnosisInput const& input, Hopeless const& why) {
   bool const revolute = input.regressor.joint() == JointKind::revolute;
   joint.joint = input.joint;
   joint.unit_position = revolute ? "rad" : "m";
-  joint.unit_torque = revolute ? "N m" : "N";
+  joint.unit_torque = in_torque_unit(revolute ? "N m" : "N", input.train.torque_unit);
   diagnosis.joints.push_back(std::move(joint));
   diagnosis.reason = reason_sentence(diagnosis);
   return {std::move(diagnosis), {}};

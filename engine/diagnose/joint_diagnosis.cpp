@@ -9,11 +9,13 @@
 #include <utility>
 
 #include "engine/base/quantity_text.hpp"
+#include "engine/base/torque_unit.hpp"
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/joint_search.hpp"
 #include "engine/diagnose/model_account.hpp"
 #include "engine/diagnose/named_effects.hpp"
 #include "engine/diagnose/neighbour_load.hpp"
+#include "engine/diagnose/recorded_unit.hpp"
 #include "engine/inference/kept_model.hpp"
 #include "engine/inference/verdict_table.hpp"
 #include "engine/locate/largest_parts.hpp"
@@ -63,7 +65,7 @@ class JointWork {
       : input_(input), progress_(progress), first_look_(input) {
     bool const revolute = input.regressor.joint() == JointKind::revolute;
     joint_.unit_position = revolute ? "rad" : "m";
-    joint_.unit_torque = revolute ? "N m" : "N";
+    joint_.unit_torque = in_torque_unit(revolute ? "N m" : "N", input.train.torque_unit);
     joint_.joint = input.joint;
     joint_.name = input.joint_name;
     diagnosis_.seed = input.seed;
@@ -119,6 +121,7 @@ class JointWork {
     joint_.candidates = candidate_table(selection_, input_.selection.q, blocked_mismatch(baseline()).excess);
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
+    tell_in_recorded_unit(joint_);
     if (!selection_.accepted.empty()) account_for_effects();
     account_for_unseen();
     if (!found_.search->states.front().adequacy.holds())
@@ -144,6 +147,7 @@ class JointWork {
                                       {input_.selection.shape_optimiser, input_.seed, input_.threads, false});
     joint_.effects = std::move(named.effects);
     joint_.augmented = std::move(named.parameters);
+    tell_in_recorded_unit(joint_);
     JointScales const& scales = final_stage().model().reference().scales;
     FrictionSign const sign = scales.friction_sign();
     joint_.law_levels = {sign.forward, sign.backward, scales.inertia};
@@ -327,6 +331,7 @@ class JointWork {
     } else if (!decided.keeps_names) {
       joint_.unexplained = largest_parts(joint_.map);
     }
+    tell_in_recorded_unit(joint_);
     if (!decided.keeps_names) return withdraw(decided.reason);
     ExplainedShare const& explained = found_.kept.held_out.explained;
     joint_.explained_share = explained.share;

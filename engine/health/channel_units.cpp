@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <regex>
 
@@ -76,6 +77,16 @@ std::optional<std::pair<std::string, std::string>> around_number(std::string con
 }
 
 }  // namespace
+
+std::string unit_of_unknown_torque(Examination const& exam) {
+  bool const is_known = exam.writes("torque_per_unit") && std::abs(exam.options.torque_factor()) != 1.0;
+  auto const unit = unit_of(exam, "torque");
+  if (is_known || !unit) return {};
+  using enum Quantity;
+  bool const is_other =
+      unit->quantity == ratio || unit->quantity == counts || unit->quantity == current || unit->quantity == voltage;
+  return is_other ? unit->word : "";
+}
 
 void examine_units(Examination& exam) {
   examine_position_unit(exam);

@@ -12,6 +12,9 @@ namespace torquescope {
 
 void examine_units(Examination& exam);
 
+// "mA" of a torque column of another quantity whose factor nobody knows: no torque_per_unit, or 1 or -1; else ""
+std::string unit_of_unknown_torque(Examination const& exam);
+
 // columns of the table that are called as the position but for their number, and move
 std::vector<std::size_t> other_joint_columns(Examination& exam);
 void find_other_joints(Examination& exam);

@@ -414,6 +414,7 @@ Recording make_recording(RawTable const& whole, RecordingOptions const& options,
   recording.warnings = std::move(missing_words);
   for (auto& warning : warnings_of(recording.rows, recording.rate_hz)) recording.warnings.push_back(std::move(warning));
   recording.lone = find_lone_rows(exam);
+  recording.torque_unit = unit_of_unknown_torque(exam);
   recording.findings = std::move(exam.findings);
   return recording;
 }

@@ -56,6 +56,7 @@ struct Replay {
   std::vector<std::string> models{};
   std::size_t before = 0, after = 0;  // of models
   bool is_prismatic = false;
+  std::string torque_unit = "N m";
   std::vector<RecordingReplay> recordings{};
 };
 

@@ -181,6 +181,7 @@ Recording taken_channels(Recording& recording) {
   taken.acceleration = std::move(recording.acceleration);
   taken.torque = std::move(recording.torque);
   taken.left_out = std::move(recording.left_out);
+  taken.torque_unit = recording.torque_unit;
   taken.rows = recording.rows;
   taken.left_out_because = std::move(recording.left_out_because);
   return taken;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/torque_unit.hpp"
 #include "engine/effects/joint_form.hpp"
 #include "engine/run/model_code.hpp"
 #include "engine/store/scale_datasets.hpp"
@@ -143,17 +144,17 @@ void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults c
 }
 
 void write_model_code(ResultWriter& writer, std::string const& label, Regressor const& regressor,
-                      RunResults const& results) {
+                      std::string const& torque_unit, RunResults const& results) {
   if (results.runs() == 0 || results.present().size() < results.runs()) return;
   Eigen::VectorXd const& values = results.parameters[lower_median_index(results.gap)];
   std::vector<ParameterEstimate> parameters;
   auto const names = regressor.names(), units = regressor.units();
   for (std::size_t k = 0; k < names.size(); ++k)
-    parameters.push_back({names[k], units[k], values[static_cast<Eigen::Index>(k)]});
+    parameters.push_back({names[k], in_torque_unit(units[k], torque_unit), values[static_cast<Eigen::Index>(k)]});
   auto const laws = laws_of(parameters);
   JointKind const joint = regressor.joint();
-  writer.attribute(group_of(label), "model_c", c_text(laws, {}, joint, "joint_" + effort_word(joint)));
-  writer.attribute(group_of(label), "model_mjcf", mjcf_joint(laws, joint, "joint"));
+  writer.attribute(group_of(label), "model_c", c_text(laws, {}, {joint, torque_unit, "joint_" + effort_word(joint)}));
+  writer.attribute(group_of(label), "model_mjcf", mjcf_joint(laws, {joint, torque_unit, "joint"}));
 }
 
 void write_fitness_choice(ResultWriter& writer, std::string const& label, FitnessChoice const& choice) {

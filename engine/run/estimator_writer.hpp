@@ -29,7 +29,7 @@ void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults c
 
 // the joint of the median run as code; nothing while runs are missing
 void write_model_code(ResultWriter& writer, std::string const& label, Regressor const& regressor,
-                      RunResults const& results);
+                      std::string const& torque_unit, RunResults const& results);
 
 // what the fitness of a population method was made from, and why
 void write_fitness_choice(ResultWriter& writer, std::string const& label, FitnessChoice const& choice);

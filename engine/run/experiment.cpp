@@ -7,6 +7,7 @@
 
 #include "engine/arms/law_shapes.hpp"
 #include "engine/base/digest.hpp"
+#include "engine/base/torque_unit.hpp"
 #include "engine/data/arm_recording.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/health/finding_text.hpp"
@@ -62,7 +63,8 @@ std::string ruin_words(FilterOptions const& filter, double motion_hz, double noi
 
 std::string Experiment::Parts::torque_unit() const {
   if (arm) return "1";
-  return regressor->joint() == JointKind::revolute ? "N m" : "N";
+  std::string const& recorded = train.recordings.empty() ? std::string() : train.recordings.front().torque_unit;
+  return in_torque_unit(regressor->joint() == JointKind::revolute ? "N m" : "N", recorded);
 }
 
 bool Experiment::Parts::rolls_out() const {
@@ -70,8 +72,10 @@ bool Experiment::Parts::rolls_out() const {
 }
 
 std::vector<std::string> Experiment::Parts::parameter_units() const {
-  if (rollout) return rollout->units;
-  return arm ? arm->model.units() : regressor->units();
+  if (arm) return arm->model.units();
+  std::vector<std::string> units = rollout ? rollout->units : regressor->units();
+  for (auto& unit : units) unit = in_torque_unit(unit, torque_unit());
+  return units;
 }
 
 void Experiment::forget_motion() {

@@ -215,7 +215,7 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
     write_results(writer, plan, results, plan.rolls_out() ? rollout_error_unit(parts) : study.torque_unit,
                   parts.parameter_names());
     if (parts.regressor && parts.parameters() == parts.row_parameters())
-      write_model_code(writer, plan.label, *parts.regressor, results);
+      write_model_code(writer, plan.label, *parts.regressor, parts.torque_unit(), results);
     if (parts.arm) write_arm_accuracy(writer, plan.label, parts, results);
     if (!plan.is_closed_form()) warn_of_bounds(study, plan, results);
     if (plan.rolls_out()) write_rollout_errors(writer, plan.label, parts);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "engine/base/torque_unit.hpp"
 #include "engine/effects/instant_code.hpp"
 
 namespace torquescope {
@@ -46,11 +47,10 @@ bool asks_for(Laws const& laws, std::string const& word) {
 }
 
 // what the numbers are, and what is not in them
-std::string c_comment(Laws const& laws, JointKind joint, std::vector<std::string> const& remarks) {
-  std::string const angle = joint == JointKind::prismatic ? "m" : "rad",
-                    unit = joint == JointKind::prismatic ? "N" : "N m";
+std::string c_comment(Laws const& laws, ModelledJoint const& joint, std::vector<std::string> const& remarks) {
+  std::string const angle = joint.kind == JointKind::prismatic ? "m" : "rad", unit = plain(joint.torque_unit);
   std::string text =
-      fmt::format("/* {0} in {1} from q in {2}, dq in {2}/s, ddq in {2}/s2\n", effort_word(joint), unit, angle);
+      fmt::format("/* {0} in {1} from q in {2}, dq in {2}/s, ddq in {2}/s2\n", effort_word(joint.kind), unit, angle);
   if (asks_for(laws, "load"))
     text += fmt::format(
         "   load in {}: what the gear carries, of weight, springs and inertia of everything behind it\n", unit);
@@ -152,14 +152,15 @@ std::string function_of(Diagnosis const& diagnosis, JointDiagnosis const& joint)
       if (Effect const* known = find_effect(effect.name))
         remarks.push_back(fmt::format("left out: {}, which {}", effect.name, why_no_code(*known)));
   }
-  return c_function(laws_of(joint), joint.law_levels, kind_of(joint), function_name(joint), remarks);
+  return c_function(laws_of(joint), joint.law_levels, {kind_of(joint), joint.unit_torque, function_name(joint)},
+                    remarks);
 }
 
 }  // namespace
 
 std::string effort_word(JointKind joint) { return joint == JointKind::prismatic ? "force" : "torque"; }
 
-std::string c_function(Laws const& laws, LawLevels const& levels, JointKind joint, std::string const& name,
+std::string c_function(Laws const& laws, LawLevels const& levels, ModelledJoint const& joint,
                        std::vector<std::string> const& remarks) {
   std::vector<std::string> sum;
   for (auto const& law : laws)
@@ -167,7 +168,7 @@ std::string c_function(Laws const& laws, LawLevels const& levels, JointKind join
   if (sum.empty()) return "";
   std::string text = c_comment(laws, joint, remarks);
   bool const has_load = asks_for(laws, "load");
-  text += fmt::format("double {}(double q, double dq, double ddq{}) {{\n", name, has_load ? ", double load" : "");
+  text += fmt::format("double {}(double q, double dq, double ddq{}) {{\n", joint.name, has_load ? ", double load" : "");
   text += c_constants(laws, levels);
   for (auto const* word : {"q", "dq", "ddq"}) {
     bool const is_used =
@@ -177,7 +178,7 @@ std::string c_function(Laws const& laws, LawLevels const& levels, JointKind join
   return text + fmt::format("  return {};\n}}\n", fmt::join(sum, "\n       + "));
 }
 
-std::string mjcf_joint(Laws const& laws, JointKind joint, std::string const& name) {
+std::string mjcf_joint(Laws const& laws, ModelledJoint const& joint) {
   std::string attributes, both_levels;
   std::set<std::string> has_words, inside;
   std::vector<std::string> rest;
@@ -205,18 +206,21 @@ std::string mjcf_joint(Laws const& laws, JointKind joint, std::string const& nam
   if (!has_words.contains("damping") && !has_words.contains("frictionloss")) return "";
   for (auto const& law : laws)
     if (!inside.contains(law.parameters.front().name)) rest.push_back(said(law));
-  std::string const own = plain(name);
+  std::string const own = plain(joint.name);
   std::string text = fmt::format("<joint name=\"{}\" type=\"{}\"{}/>\n", own.empty() ? "joint" : own,
-                                 joint == JointKind::prismatic ? "slide" : "hinge", attributes);
+                                 joint.kind == JointKind::prismatic ? "slide" : "hinge", attributes);
   if (has_words.contains("armature"))
     text += "<!-- armature is all inertia of the joint: where the body has its own, take that off -->\n";
   text += both_levels;
+  if (in_torque_unit("N m", joint.torque_unit) != "N m")
+    text += fmt::format("<!-- numbers are of a torque in {}: multiply them by N m per {} -->\n",
+                        plain(joint.torque_unit), plain(joint.torque_unit));
   if (!rest.empty()) text += fmt::format("<!-- a joint of MJCF has no words for: {} -->\n", fmt::join(rest, ", "));
   return text;
 }
 
-std::string c_text(Laws const& laws, LawLevels const& levels, JointKind joint, std::string const& name) {
-  std::string const text = c_function(laws, levels, joint, name);
+std::string c_text(Laws const& laws, LawLevels const& levels, ModelledJoint const& joint) {
+  std::string const text = c_function(laws, levels, joint);
   return text.empty() ? "" : function_head + text;
 }
 
@@ -226,8 +230,8 @@ std::string c_of_joint(Diagnosis const& diagnosis, JointDiagnosis const& joint) 
 }
 
 std::string mjcf_of_joint(JointDiagnosis const& joint) {
-  return mjcf_joint(laws_of(joint), kind_of(joint),
-                    joint.name.empty() ? fmt::format("joint_{}", joint.joint) : joint.name);
+  return mjcf_joint(laws_of(joint), {kind_of(joint), joint.unit_torque,
+                                     joint.name.empty() ? fmt::format("joint_{}", joint.joint) : joint.name});
 }
 
 namespace {

@@ -17,14 +17,20 @@ namespace torquescope {
 // "torque" of a revolute joint, "force" of a slide
 std::string effort_word(JointKind joint);
 
+// what the numbers of a model are of
+struct ModelledJoint {
+  JointKind kind = JointKind::revolute;
+  std::string torque_unit;  // "N m"; "mA" where the factor of a current is not known
+  std::string name;
+};
+
 // double NAME(double q, double dq, double ddq[, double load]); "" when no law has code. remarks: lines of its comment
-std::string c_function(std::vector<ModelLaw> const& laws, LawLevels const& levels, JointKind joint,
-                       std::string const& name, std::vector<std::string> const& remarks = {});
+std::string c_function(std::vector<ModelLaw> const& laws, LawLevels const& levels, ModelledJoint const& joint,
+                       std::vector<std::string> const& remarks = {});
 // the same as a file of its own
-std::string c_text(std::vector<ModelLaw> const& laws, LawLevels const& levels, JointKind joint,
-                   std::string const& name);
+std::string c_text(std::vector<ModelLaw> const& laws, LawLevels const& levels, ModelledJoint const& joint);
 // <joint name=... damping=... frictionloss=... armature=.../> and comments; "" without friction that MJCF has
-std::string mjcf_joint(std::vector<ModelLaw> const& laws, JointKind joint, std::string const& name);
+std::string mjcf_joint(std::vector<ModelLaw> const& laws, ModelledJoint const& joint);
 
 std::string c_of_joint(Diagnosis const& diagnosis, JointDiagnosis const& joint);
 std::string mjcf_of_joint(JointDiagnosis const& joint);

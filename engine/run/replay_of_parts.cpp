@@ -139,6 +139,7 @@ Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, st
   for (auto const& source : sources) replay.models.push_back(source.name);
   replay.after = sources.size() - 1;
   replay.is_prismatic = parts.regressor->joint() == JointKind::prismatic;
+  replay.torque_unit = parts.torque_unit();
   std::size_t const n_train = rollout.train.tracks.size(), all = n_train + rollout.validate.tracks.size();
   replay.recordings.resize(all);
   parallel_for(all, threads, [&](std::size_t i, int) {

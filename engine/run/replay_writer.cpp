@@ -20,16 +20,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-char const* unit_of(ReplayChannel channel, bool is_prismatic) {
+std::string unit_of(ReplayChannel channel, Replay const& replay) {
   switch (channel) {
     case ReplayChannel::position:
-      return is_prismatic ? "m" : "rad";
+      return replay.is_prismatic ? "m" : "rad";
     case ReplayChannel::velocity:
-      return is_prismatic ? "m/s" : "rad/s";
+      return replay.is_prismatic ? "m/s" : "rad/s";
     case ReplayChannel::torque:
       break;
   }
-  return is_prismatic ? "N" : "N m";
+  return replay.torque_unit;
 }
 
 std::string drive_word(RecordingReplay const& recording) {
@@ -38,8 +38,8 @@ std::string drive_word(RecordingReplay const& recording) {
 }
 
 void write_channel(ResultWriter& writer, std::string const& group, ReplayChannel which, ChannelReplay const& channel,
-                   bool is_prismatic) {
-  std::string const unit = unit_of(which, is_prismatic);
+                   Replay const& replay) {
+  std::string const unit = unit_of(which, replay);
   auto const n = static_cast<std::size_t>(channel.measured.size()), models = channel.simulated.size();
   writer.attribute(group, "unit", unit);
   writer.attribute(group, "signal_rms", channel.signal_rms);
@@ -75,9 +75,8 @@ Json channel_json(ReplayChannel which, ChannelReplay const& channel, Replay cons
                       {"mae", json_number(error.mae)},
                       {"relerr", json_number(error.relerr)}});
   }
-  return {{"unit", unit_of(which, replay.is_prismatic)},
-          {"signal_rms", json_number(channel.signal_rms)},
-          {"models", std::move(models)}};
+  return {
+      {"unit", unit_of(which, replay)}, {"signal_rms", json_number(channel.signal_rms)}, {"models", std::move(models)}};
 }
 
 }  // namespace
@@ -107,7 +106,7 @@ void write_replay(ResultWriter& writer, Replay const& replay) {
     for (std::size_t c = 0; c < replay_channels; ++c) {
       auto const which = static_cast<ReplayChannel>(c);
       if (one.channels[c].measured.size() > 0)
-        write_channel(writer, group + "/" + word(which), which, one.channels[c], replay.is_prismatic);
+        write_channel(writer, group + "/" + word(which), which, one.channels[c], replay);
     }
   }
 }

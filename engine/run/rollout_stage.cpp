@@ -88,7 +88,7 @@ void write_rollout_fit(ResultWriter& writer, std::string const& label, RolloutFi
 
 std::string rollout_error_unit(Experiment::Parts const& parts) {
   bool const slides = parts.regressor->joint() == JointKind::prismatic;
-  return judges_torque(*parts.rollout) ? (slides ? "N" : "N m") : (slides ? "m" : "rad");
+  return judges_torque(*parts.rollout) ? parts.torque_unit() : (slides ? "m" : "rad");
 }
 
 void write_rollout_errors(ResultWriter& writer, std::string const& label, Experiment::Parts const& parts) {

@@ -40,6 +40,7 @@ void write_model(ResultWriter& writer, Experiment::Parts const& parts) {
     writer.attribute("/model", "equation", parts.arm->model.equation());
     return;
   }
+  writer.attribute("/model", "torque_unit", parts.torque_unit());
   Regressor const& regressor = *parts.regressor;
   bool const revolute = regressor.joint() == JointKind::revolute;
   writer.attribute("/model", "joint", std::string(revolute ? "revolute" : "prismatic"));
@@ -74,11 +75,10 @@ void write_data_attributes(ResultWriter& writer, std::string const& group, DataS
 }
 
 void write_samples(ResultWriter& writer, std::string const& group, RegressionData const& data, JointKind joint,
-                   std::vector<std::string> const& parameters) {
+                   std::string const& torque_unit, std::vector<std::string> const& parameters) {
   auto const n = static_cast<std::size_t>(data.rows());
   bool const revolute = joint == JointKind::revolute;
   std::string const length = revolute ? "rad" : "m";
-  std::string const torque_unit = revolute ? "N m" : "N";
   writer.numbers_in_blocks(
       group + "/time", {n}, [&](std::size_t first, std::span<double> seconds) { data.time(first, seconds); },
       Note{"s", "time"}.over({"time"}));
@@ -118,7 +118,8 @@ void write_data_set(ResultWriter& writer, std::string const& group, DataSet cons
   if (parts.arm)
     write_arm_samples(writer, group, set, parts);
   else if (parts.output.samples)
-    write_samples(writer, group, set.regression, parts.regressor->joint(), parts.row_parameter_names());
+    write_samples(writer, group, set.regression, parts.regressor->joint(), parts.torque_unit(),
+                  parts.row_parameter_names());
   else
     writer.attribute(group, "samples", static_cast<std::int64_t>(set.regression.rows()));
   std::vector<std::string> warnings;

@@ -15,9 +15,9 @@ namespace {
 
 using Align = TextTable::Align;
 
-std::string unit_of(ReplayChannel channel, bool is_prismatic) {
-  std::string const length = is_prismatic ? "m" : "rad";
-  if (channel == ReplayChannel::torque) return is_prismatic ? "N" : "N m";
+std::string unit_of(ReplayChannel channel, Replay const& replay) {
+  std::string const length = replay.is_prismatic ? "m" : "rad";
+  if (channel == ReplayChannel::torque) return replay.torque_unit;
   return channel == ReplayChannel::position ? length : length + "/s";
 }
 
@@ -40,7 +40,7 @@ void add_rows(Replay const& replay, RecordingReplay const& one, TextTable& table
       if (!lost && std::isnan(error.rms)) continue;
       table.row({is_first ? printable(one.name) : "", m == 0 ? word(which) : "", replay.models[m],
                  count_text(error.samples), value_text(error.rms, lost), value_text(error.mae, lost),
-                 unit_of(which, replay.is_prismatic), share_text(error.relerr, lost)});
+                 unit_of(which, replay), share_text(error.relerr, lost)});
       is_first = false;
     }
   }

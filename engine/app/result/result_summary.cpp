@@ -210,6 +210,7 @@ ResultSummary summarise(Source const& reader) {
   summary.inputs_sha256 = reader.template attribute<std::string>("/job", "inputs_sha256");
   summary.seed = reader.template attribute<std::int64_t>("/job", "seed");
   summary.joint = text_or_empty(reader, "/model", "joint");
+  summary.torque_unit = text_or_empty(reader, "/model", "torque_unit");
   summary.equation = text_or_empty(reader, "/model", "equation");
   summary.names = reader.texts("/model/names");
   summary.units = reader.texts("/model/units");

@@ -68,9 +68,9 @@ struct ResultSummary {
   std::string content_sha256;
   std::string name, study, job_sha256, inputs_sha256;
   std::int64_t seed = 0;
-  std::string joint, equation, health_words;
-  std::vector<std::string> names, units;  // [R]
-  std::vector<double> truth;              // [R] NaN where unknown
+  std::string joint, torque_unit, equation, health_words;  // torque_unit: "" in files before 28 Nov 2026
+  std::vector<std::string> names, units;                   // [R]
+  std::vector<double> truth;                               // [R] NaN where unknown
   std::optional<ArmSummary> arm{};
   DataSummary train;
   bool has_validation = false;

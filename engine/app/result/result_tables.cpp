@@ -34,7 +34,9 @@ bool knows_truth(ResultSummary const& summary) {
 
 // of the errors in the table: of rollouts where all estimators have it
 std::string error_unit(ResultSummary const& summary) {
-  std::string const unit = summary.joint == "prismatic" ? "N" : "N m";
+  std::string const unit = !summary.torque_unit.empty()   ? summary.torque_unit
+                           : summary.joint == "prismatic" ? "N"
+                                                          : "N m";
   if (summary.estimators.empty()) return unit;
   std::string const first = summary.estimators.front().rollout_unit;
   bool const same = std::all_of(summary.estimators.begin(), summary.estimators.end(),
