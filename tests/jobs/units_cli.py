@@ -127,7 +127,8 @@ class Units(unittest.TestCase):
         (self.folder / "job.toml").write_text(JOB.format(unit=unit, factor=factor, decider=decider))
         said = {"run": self.run_program("run", "job.toml", "--out", "run.h5"),
                 "replay": self.run_program("replay", "run.h5"),
-                "diagnose": self.run_program("diagnose", "job.toml", "--out", "found.h5", "--all", "--json", "found.json"),
+                "diagnose": self.run_program("diagnose", "job.toml", "--out", "found.h5", "--all", "--json",
+                                             "found.json"),
                 "json": (self.folder / "found.json").read_text(),
                 "show run": self.run_program("show", "run.h5"),
                 "show found": self.run_program("show", "found.h5", "--all")}
