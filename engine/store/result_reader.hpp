@@ -45,6 +45,7 @@ class ResultReader {
   std::vector<double> number_rows(std::string const& path, std::size_t first, std::size_t count) const;
   std::vector<std::int64_t> whole_number_rows(std::string const& path, std::size_t first, std::size_t count) const;
   std::vector<std::string> texts(std::string const& path) const;
+  std::vector<std::string> text_rows(std::string const& path, std::size_t first, std::size_t count) const;
 
   // Value: double (also from a whole number), std::int64_t, std::string, std::vector<double>, std::vector<std::string>
   template <class Value>
