@@ -1,7 +1,10 @@
 #include "engine/run/segment_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <type_traits>
+#include <utility>
 
 #include "engine/base/confined.hpp"
 #include "engine/base/error.hpp"
@@ -46,20 +49,8 @@ std::vector<std::size_t> counts(ResultReader const& reader, std::string const& p
 
 }  // namespace
 
-SegmentFile::Lists::Lists(std::string const& group, double share)
-    : evaluations(group + "evaluations", share),
-      nonfinite(group + "nonfinite", share),
-      elapsed_s(group + "elapsed_s", share),
-      parameters(group + "parameters", share),
-      state_names(group + "state_names", share),
-      state_sizes(group + "state_sizes", share),
-      state_numbers(group + "state_numbers", share) {
-  for (auto const& list : history_lists) histories.emplace_back(group + list.name, share);
-}
-
-SegmentFile::SegmentFile(FilePlace const& place, std::size_t ahead) : place_(place) {
+SegmentFile::SegmentFile(FilePlace const& place, std::size_t ahead) : place_(place), ahead_(ahead) {
   bytes_ = reader().bytes();
-  share_ = std::min(1.0, static_cast<double>(ahead) / static_cast<double>(std::max<std::uint64_t>(1, bytes_)));
   origin_ = read_origin(reader());
   for (auto const& label : reader().attribute<std::vector<std::string>>("/parts", "order")) read_index(label);
 }
@@ -99,12 +90,43 @@ void SegmentFile::read_index(std::string const& label) {
     index.entries.back().state_numbers = number - index.entries.back().state_number;
   }
   estimators_.emplace(label, std::move(index));
-  lists_.emplace(label, Lists(group, share_));
+}
+
+// Of the bytes that are read ahead each dataset gets a part that grows with the root of its size: where these are fewer
+// than a chunk, all of them together are read the fewest times
+SegmentFile::Lists& SegmentFile::lists(std::string const& label) {
+  if (lists_ && lists_->label == label) return *lists_;
+  std::string const group = segment_group(label);
+  std::map<std::string, h5::DatasetInfo> layouts;
+  auto const root_of_size = [](h5::DatasetInfo const& layout) {
+    return std::sqrt(static_cast<double>(layout.rows()) * static_cast<double>(layout.values_per_row()));
+  };
+  double roots = 0.0;
+  for (auto const& dataset : reader().children(group.substr(0, group.size() - 1)))
+    roots += root_of_size(layouts[dataset] = reader().layout(group + dataset));
+  auto const ahead = [&]<class Value>(std::string const& dataset, std::type_identity<Value>) {
+    auto const& layout = layouts[dataset];  // of one that is absent: none, which matters when it is asked for
+    auto const bytes = static_cast<double>(ahead_) * root_of_size(layout) / std::max(1.0, roots);
+    return RowsAhead<Value>(group + dataset, layout, static_cast<std::size_t>(bytes));
+  };
+  std::type_identity<double> const number;
+  std::type_identity<std::int64_t> const whole;
+  std::vector<RowsAhead<double>> histories;
+  for (auto const& list : history_lists) histories.push_back(ahead(list.name, number));
+  return lists_.emplace(Lists{.label = label,
+                              .histories = std::move(histories),
+                              .evaluations = ahead("evaluations", whole),
+                              .nonfinite = ahead("nonfinite", whole),
+                              .elapsed_s = ahead("elapsed_s", number),
+                              .parameters = ahead("parameters", number),
+                              .state_names = ahead("state_names", std::type_identity<std::string>{}),
+                              .state_sizes = ahead("state_sizes", whole),
+                              .state_numbers = ahead("state_numbers", number)});
 }
 
 RunPart SegmentFile::read(std::string const& label, std::size_t entry) {
   Index const& index = estimators_.at(label);
-  Lists& lists = lists_.at(label);
+  Lists& lists = this->lists(label);
   Entry const& wanted = index.entries.at(entry);
   RunPart part{.run = wanted.run, .first = wanted.first, .count = wanted.count, .ended = wanted.ended};
   auto const open = [this]() -> ResultReader const& { return reader(); };
@@ -125,24 +147,23 @@ RunPart SegmentFile::read(std::string const& label, std::size_t entry) {
     part.history.stop_reason = wanted.stop_reason;
     into(part.history.parameters, read(lists.parameters, entry, 1, index.shape.parameters));
   }
-  part.state = read_state(label, wanted);
+  part.state = read_state(lists, wanted);
   return part;
 }
 
-OptimiserState SegmentFile::read_state(std::string const& label, Entry const& entry) {
+OptimiserState SegmentFile::read_state(Lists& lists, Entry const& entry) {
   OptimiserState state;
   std::size_t const n = entry.state_end - entry.state_first;
   if (n == 0) return state;
-  Lists& lists = lists_.at(label);
   auto const open = [this]() -> ResultReader const& { return reader(); };
   auto const names = lists.state_names.rows(open, entry.state_first, n);
   auto const sizes = lists.state_sizes.rows(open, entry.state_first, n);
   auto numbers = lists.state_numbers.rows(open, entry.state_number, entry.state_numbers);
   if (names.size() != n || sizes.size() != n || numbers.size() != entry.state_numbers)
-    throw contradicts_itself(name(), "states of " + label);
+    throw contradicts_itself(name(), "states of " + lists.label);
   for (std::size_t i = 0; i < n; ++i) {
     auto const size = static_cast<std::size_t>(sizes[i]);
-    if (size > numbers.size()) throw contradicts_itself(name(), "states of " + label);
+    if (size > numbers.size()) throw contradicts_itself(name(), "states of " + lists.label);
     state[names[i]].assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(size));
     numbers = numbers.subspan(size);
   }

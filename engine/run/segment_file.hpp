@@ -66,7 +66,7 @@ class SegmentFile {
   };
 
   // ahead: bytes of it, about, that are read and kept at once
-  static constexpr std::size_t most_ahead = std::size_t{1} << 20;
+  static constexpr std::size_t most_ahead = std::size_t{4} << 20;
   explicit SegmentFile(FilePlace const& place, std::size_t ahead = most_ahead);
 
   std::filesystem::path const& name() const { return place_.path; }
@@ -79,9 +79,9 @@ class SegmentFile {
   void close() { reader_.reset(); }
 
  private:
-  // datasets of an estimator
+  // datasets of one estimator
   struct Lists {
-    Lists(std::string const& group, double share);
+    std::string label;
     std::vector<RowsAhead<double>> histories;  // as history_lists
     RowsAhead<std::int64_t> evaluations, nonfinite;
     RowsAhead<double> elapsed_s, parameters;
@@ -92,15 +92,16 @@ class SegmentFile {
 
   ResultReader const& reader();
   void read_index(std::string const& label);
-  OptimiserState read_state(std::string const& label, Entry const& entry);
+  Lists& lists(std::string const& label);
+  OptimiserState read_state(Lists& lists, Entry const& entry);
 
   FilePlace place_;
   std::optional<ResultReader> reader_;
   std::uint64_t bytes_;
-  double share_;  // of it that is read at once
+  std::size_t ahead_;
   SegmentOrigin origin_;
   std::map<std::string, Index> estimators_;
-  std::map<std::string, Lists> lists_;
+  std::optional<Lists> lists_;  // of the estimator that was asked for last
 };
 
 // opens a segment in a process of its own, for `look` to read what will be read of it. Errors: those of both; 65 when

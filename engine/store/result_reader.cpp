@@ -115,9 +115,11 @@ std::vector<std::string> ResultReader::children(std::string const& group) const 
   });
 }
 
-h5::Shape ResultReader::shape(std::string const& path) const {
-  return guarded(path, [&] { return h5::describe(h5::open_object(file_, path)).shape; });
+h5::DatasetInfo ResultReader::layout(std::string const& path) const {
+  return guarded(path, [&] { return h5::describe(h5::open_object(file_, path)); });
 }
+
+h5::Shape ResultReader::shape(std::string const& path) const { return layout(path).shape; }
 
 ResultReader::Numbers ResultReader::numbers(std::string const& path) const {
   return guarded(path, [&] { return read_array<Numbers>(file_, path, h5::Element::number); });

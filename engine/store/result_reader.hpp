@@ -39,6 +39,7 @@ class ResultReader {
 
   // of a dataset, whatever it holds; its values are not read
   h5::Shape shape(std::string const& path) const;
+  h5::DatasetInfo layout(std::string const& path) const;
   Numbers numbers(std::string const& path) const;
   WholeNumbers whole_numbers(std::string const& path) const;
   // rows [first, first + count) of the first dimension alone; 65 when there are fewer

@@ -2,7 +2,7 @@
 // Rows of one dataset for somebody who asks for few at a time, mostly forwards: many are read at once and kept.
 //
 // Why        HDF5 reads, checks and copies a whole chunk, up to 1 MiB, for a single row of it
-// Memory     a share of the dataset, and what is asked for at once
+// Memory     as many bytes as it is given, twice where chunks are that large, and what is asked for at once
 // Errors     those of ResultReader
 // Threads    as HDF5: one of the process at a time
 
@@ -24,8 +24,13 @@ namespace torquescope {
 template <class Value>
 class RowsAhead {
  public:
-  // share: of the dataset that is read at once, 0 to 1
-  RowsAhead(std::string path, double share) : path_(std::move(path)), share_(share) {}
+  // bytes: of what is read at once, about
+  RowsAhead(std::string path, h5::DatasetInfo const& info, std::size_t bytes)
+      : path_(std::move(path)), all_(info.rows()), chunk_(info.chunk.empty() ? 1 : info.chunk.front()) {
+    std::size_t const value = info.element == h5::Element::text ? info.text_size : sizeof(double);
+    std::size_t const rows = bytes / std::max<std::size_t>(1, info.values_per_row() * value);
+    at_once_ = 2 * rows < chunk_ ? rows : (rows + chunk_ / 2) / chunk_ * chunk_;
+  }
 
   // rows [first, first + count), row-major; valid until the next call. `open` gives the reader, if rows must be read
   template <class Open>
@@ -38,14 +43,17 @@ class RowsAhead {
  private:
   std::size_t end() const { return first_ + n_rows_; }
 
+  // one row behind the last that is read with row `from`
+  std::size_t end_ahead(std::size_t from) const {
+    std::size_t const end = std::min(from + at_once_, all_);
+    return end < all_ && at_once_ >= chunk_ ? end / chunk_ * chunk_ : end;
+  }
+
   void read(ResultReader const& reader, std::size_t first, std::size_t count) {
-    h5::Shape const shape = reader.shape(path_);
-    std::size_t const all = shape.empty() ? 1 : shape.front();
-    std::size_t const at_once = std::max(count, static_cast<std::size_t>(share_ * static_cast<double>(all)));
     // what is there already is not read again
     std::size_t const from = first >= first_ && first < end() ? end() : first;
     // more than there is stays as it was asked for: the reader says what is wrong
-    std::size_t const until = std::max(first + count, first < all ? first + std::min(at_once, all - first) : 0);
+    std::size_t const until = std::max(first + count, end_ahead(from));
     std::vector<Value> fresh = read_rows(reader, from, until - from);
     std::vector<Value> kept = std::exchange(values_, {});
     std::size_t const known = from - first;
@@ -67,7 +75,7 @@ class RowsAhead {
   }
 
   std::string path_;
-  double share_;
+  std::size_t all_, chunk_, at_once_ = 0;           // rows; at once: whole chunks, unless they are much larger
   std::size_t first_ = 0, n_rows_ = 0, width_ = 0;  // of the rows that are there
   std::vector<Value> values_{};
 };
