@@ -3,7 +3,7 @@
     python3 bench/runs/merge.py build/bench [--runs 10000] [--shards 20] [--generations 10] [--rounds 3]
 
 DE, 30 members, four parameters, few generations: runs so small that all that happens once a run shows. A run's cost is
-the slope between a few runs and all of them; "one process" is `torquescope run` of the same job, whose file the merged
+the slope between half the runs and all of them; "one process" is `torquescope run` of the same job, whose file the merged
 one equals byte for byte. Goal: merging at most 10 % of that.
 """
 import argparse
@@ -56,8 +56,8 @@ class Sharded:
             sys.exit("the merged result is not that of one process")
 
 
-def slope(few, many, runs, number):
-    median = [statistics.median(number(run) for run in done) for done in (few, many)]
+def slope(half, many, runs, number):
+    median = [statistics.median(number(run) for run in done) for done in (half, many)]
     return (median[1] - median[0]) / runs
 
 
@@ -69,12 +69,12 @@ def main():
     wanted = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         program = wanted.build.resolve() / "bin/torquescope"
-        few, many = (Sharded(program, folder, runs, wanted.shards, wanted.generations)
-                     for runs in (wanted.shards, wanted.runs))
+        half, many = (Sharded(program, folder, runs, wanted.shards, wanted.generations)
+                     for runs in (wanted.runs // 2, wanted.runs))
         rows, costs = [], []
         for name in ("run", "merge"):
-            done = [[getattr(job, name)() for _ in range(wanted.rounds)] for job in (few, many)]
-            runs = many.runs - few.runs
+            done = [[getattr(job, name)() for _ in range(wanted.rounds)] for job in (half, many)]
+            runs = many.runs - half.runs
             cost, memory = (slope(*done, runs, number) for number in (lambda run: run.cpu_s, lambda run: run.peak_mb))
             costs.append(cost)
             rows.append([{"run": "one process", "merge": "merge"}[name], f"{1e3 * cost:.4f}", f"{1e3 * memory:.2f}",

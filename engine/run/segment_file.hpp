@@ -66,7 +66,7 @@ class SegmentFile {
   };
 
   // ahead: bytes of it, about, that are read and kept at once
-  static constexpr std::size_t most_ahead = std::size_t{4} << 20;
+  static constexpr std::size_t most_ahead = std::size_t{2} << 20;
   explicit SegmentFile(FilePlace const& place, std::size_t ahead = most_ahead);
 
   std::filesystem::path const& name() const { return place_.path; }
