@@ -3,8 +3,9 @@
     python3 bench/runs/merge.py build/bench [--runs 10000] [--shards 20] [--generations 10] [--rounds 3]
 
 DE, 30 members, four parameters, few generations: runs so small that all that happens once a run shows. A run's cost is
-the slope between half the runs and all of them; "one process" is `torquescope run` of the same job, whose file the merged
-one equals byte for byte. Goal: merging at most 10 % of that.
+the slope between half the runs and all of them. "one process" is `torquescope run` of the same job; the merged file
+must equal its file byte for byte. Memory of few runs is mostly what is read ahead, which has a bound. Goal: merging
+costs at most 10 % of one process.
 """
 import argparse
 import filecmp
