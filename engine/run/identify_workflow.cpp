@@ -126,15 +126,16 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
   HistoryShape const shape = history_shape(parts, plan);
   declare_histories(study.writer, plan.label, shape, study.torque_unit);
   RunResults results;
-  std::vector<OptimiserState> last_states;
-  std::vector<double> PC, FC;
+  LastStates last_states;
+  std::vector<double> PC, FC;  // of estimators with a controller
   auto const commit = [&](std::size_t run, std::shared_ptr<RunHistory const> const& history) {
     write_history(study.writer, plan.label, run, history);
     Eigen::VectorXd const parameters =
         Eigen::Map<Eigen::VectorXd const>(history->parameters.data(), static_cast<Eigen::Index>(shape.parameters));
     keep_run(plan.rolls_out() ? history->gap.back() : gap_to_floor(study, parameters), parameters, history->stop_reason,
              history->evaluations.back(), history->nonfinite, results);
-    last_states.push_back(history->last_state);
+    last_states.add(history->last_state);
+    if (!plan.controller) return;
     PC.insert(PC.end(), history->PC.begin(), history->PC.end());
     FC.insert(FC.end(), history->FC.begin(), history->FC.end());
   };
@@ -153,7 +154,7 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
     measure_rollouts(parts, study.attempt.options.threads.count, results);
   else
     measure_runs(study, results);
-  if (shape.members > 0) write_last_states(study.writer, plan.label, last_states);
+  if (shape.members > 0) last_states.write(study.writer, plan.label);
   write_fitness_choice(study.writer, plan.label, choice);
   if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape, PC, FC);
   return results;

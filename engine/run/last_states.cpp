@@ -13,27 +13,30 @@ std::string group_of(std::string const& label) { return "/runs/" + label + "/las
 
 }  // namespace
 
-void write_last_states(ResultWriter& writer, std::string const& label, std::vector<OptimiserState> const& states) {
-  std::string const group = group_of(label);
-  auto const has_one = [](auto const& state) { return !state.empty(); };
-  auto const known = std::find_if(states.begin(), states.end(), has_one);
-  writer.attribute(group, "runs", static_cast<std::int64_t>(std::count_if(states.begin(), states.end(), has_one)));
-  if (known == states.end()) return;
-  std::vector<std::string> names;
-  for (auto const& [name, values] : *known) names.push_back(name);
-  std::vector<std::int64_t> sizes;
-  std::vector<double> numbers;
-  for (auto const& state : states) {
-    TORQUESCOPE_EXPECT(state.empty() || state.size() == names.size());
-    if (state.empty()) sizes.insert(sizes.end(), names.size(), 0);
-    for (auto const& [name, values] : state) {
-      sizes.push_back(static_cast<std::int64_t>(values.size()));
-      numbers.insert(numbers.end(), values.begin(), values.end());
-    }
+void LastStates::add(OptimiserState const& state) {
+  ++runs_;
+  if (state.empty()) {
+    sizes_.insert(sizes_.end(), names_.size(), 0);
+    return;
   }
-  writer.texts(group + "/names", names, {"1", "entries of the state that a longer search goes on from"});
-  writer.whole_numbers(group + "/sizes", {states.size(), names.size()}, sizes, {"1", "numbers of each entry"});
-  writer.numbers(group + "/numbers", {numbers.size()}, numbers, {"1", "run after run, entry after entry"});
+  if (runs_with_one_++ == 0) {
+    for (auto const& [name, values] : state) names_.push_back(name);
+    sizes_.assign((runs_ - 1) * names_.size(), 0);
+  }
+  TORQUESCOPE_EXPECT(state.size() == names_.size());
+  for (auto const& [name, values] : state) {
+    sizes_.push_back(static_cast<std::int64_t>(values.size()));
+    numbers_.insert(numbers_.end(), values.begin(), values.end());
+  }
+}
+
+void LastStates::write(ResultWriter& writer, std::string const& label) const {
+  std::string const group = group_of(label);
+  writer.attribute(group, "runs", static_cast<std::int64_t>(runs_with_one_));
+  if (runs_with_one_ == 0) return;
+  writer.texts(group + "/names", names_, {"1", "entries of the state that a longer search goes on from"});
+  writer.whole_numbers(group + "/sizes", {runs_, names_.size()}, sizes_, {"1", "numbers of each entry"});
+  writer.numbers(group + "/numbers", {numbers_.size()}, numbers_, {"1", "run after run, entry after entry"});
 }
 
 std::vector<OptimiserState> read_last_states(ResultReader const& reader, std::string const& label) {

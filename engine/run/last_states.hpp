@@ -7,6 +7,8 @@
 // Errors     those of ResultWriter; of ResultReader, and 65 when lists contradict one another
 // Threads    as HDF5: one of the process at a time
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,18 @@
 
 namespace torquescope {
 
-void write_last_states(ResultWriter& writer, std::string const& label, std::vector<OptimiserState> const& states);
+// Those of all runs until they are written, as the file has them: of millions of small runs they are most of the memory
+class LastStates {
+ public:
+  void add(OptimiserState const& state);  // of the next run; empty: it has none
+  void write(ResultWriter& writer, std::string const& label) const;
+
+ private:
+  std::size_t runs_ = 0, runs_with_one_ = 0;
+  std::vector<std::string> names_{};
+  std::vector<std::int64_t> sizes_{};
+  std::vector<double> numbers_{};
+};
 
 // empty where no run has one
 std::vector<OptimiserState> read_last_states(ResultReader const& reader, std::string const& label);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "engine/base/error.hpp"
@@ -11,7 +12,11 @@
 namespace torquescope {
 namespace {
 
-constexpr std::size_t most_open_files = 16;
+// descriptors: systems allow 1024 by default
+constexpr std::size_t most_open_files = 200;
+constexpr std::size_t fewest_kept = 16;
+// of all segments that are kept. 64 KiB are some small runs: less would read each chunk too often
+constexpr std::size_t most_bytes_ahead = std::size_t{256} << 20, least_bytes_ahead = std::size_t{64} << 10;
 constexpr int most_listings = 10;
 
 // the number of runs may grow
@@ -82,6 +87,7 @@ void SavedRuns::read_all() {
     for (auto const& folder : folders_) is_whole = read_folder(*folder) && is_whole;
     if (is_whole || listing == most_listings) break;
   }
+  n_shards_ = shards();
   for (auto& [label, runs] : runs_)
     for (auto& [run, pieces] : runs)
       std::stable_sort(pieces.begin(), pieces.end(), [](auto const& a, auto const& b) {
@@ -91,7 +97,7 @@ void SavedRuns::read_all() {
 
 // false: a segment that was listed is gone
 bool SavedRuns::read_folder(OpenFolder const& folder) {
-  auto const look = [&](SegmentFile const& file) {
+  auto const look = [&](SegmentFile& file) {
     if (accept(file, request_)) file.verify();
   };
   bool is_whole = true;
@@ -165,11 +171,25 @@ bool SavedRuns::has_ended(std::string const& label, std::size_t run) const {
   return std::any_of(pieces->begin(), pieces->end(), [&](Piece const& p) { return p.ended && p.end <= end; });
 }
 
+std::size_t SavedRuns::shards() const {
+  std::set<std::pair<std::size_t, std::size_t>> shards;
+  for (auto const& origin : origins_) shards.emplace(origin.shard_index, origin.shard_count);
+  return shards.size();
+}
+
+// Neighbouring runs are of different shards, so one segment of each stays; those asked for longest ago are done with
 SegmentFile& SavedRuns::opened(std::size_t file) {
-  auto const known = open_.find(file);
-  if (known != open_.end()) return *known->second;
-  if (open_.size() >= most_open_files) open_.erase(open_.begin());
-  return *open_.emplace(file, std::make_unique<SegmentFile>(files_[file])).first->second;
+  auto known = open_.find(file);
+  if (known == open_.end()) {
+    if (open_.size() >= std::max(fewest_kept, n_shards_))
+      open_.erase(std::min_element(open_.begin(), open_.end(),
+                                   [](auto const& a, auto const& b) { return a.second.asked < b.second.asked; }));
+    std::size_t const ahead =
+        std::clamp(most_bytes_ahead / std::max(fewest_kept, n_shards_), least_bytes_ahead, SegmentFile::most_ahead);
+    known = open_.emplace(file, Opened{std::make_unique<SegmentFile>(files_[file], ahead), 0}).first;
+  }
+  known->second.asked = ++n_asked_;
+  return *known->second.file;
 }
 
 std::optional<RunPart> SavedRuns::load(std::string const& label, HistoryShape const& shape, std::size_t run) {
@@ -198,6 +218,7 @@ std::optional<RunPart> SavedRuns::load_now(std::string const& label, HistoryShap
     SegmentFile& file = opened(piece.file);
     if (!same_lists(file.estimators().at(label).shape, shape)) throw other_search(file, label);
     RunPart part = file.read(label, piece.entry);
+    if (n_shards_ > most_open_files) file.close();
     std::size_t const difference = first_difference(whole.history, part, shape);
     if (difference < part.end()) throw disagree(label, run, difference, source_of(difference), file.name());
     // an end is an end: nothing comes behind it, and two ends are one

@@ -7,6 +7,7 @@
 // Meanwhile  living processes gather their segments (segment_pile.hpp): when one is gone, the folder is listed again
 // Errors     65 when two segments disagree (both are named); 78 when a segment belongs to another job, or to another
 //            program unless that is allowed
+// Memory     an index of all runs, and up to 256 MiB of what segments have next, however many they are
 // Threads    as HDF5: one of the process at a time
 
 #include <cstddef>
@@ -64,12 +65,19 @@ class SavedRuns {
   Pieces const* find(std::string const& label, std::size_t run) const;
   bool accept(SegmentFile const& file, SavedRunsRequest const& request);
   void take(SegmentFile const& file, std::size_t index);
+  std::size_t shards() const;  // that wrote the segments
   SegmentFile& opened(std::size_t file);
 
   SavedRunsRequest request_;
   std::vector<std::shared_ptr<OpenFolder const>> folders_;  // of the files
   std::vector<FilePlace> files_;
-  std::map<std::size_t, std::unique_ptr<SegmentFile>> open_;   // a few of them
+  struct Opened {
+    std::unique_ptr<SegmentFile> file;
+    std::uint64_t asked;  // when it was asked for last
+  };
+  std::map<std::size_t, Opened> open_;  // of every shard about one: runs come from all of them in turns
+  std::uint64_t n_asked_ = 0;
+  std::size_t n_shards_ = 1;
   std::map<std::string, std::map<std::size_t, Pieces>> runs_;  // by label and run, sorted by first generation
   std::vector<SegmentOrigin> origins_;
   std::vector<std::string> warnings_;

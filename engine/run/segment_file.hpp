@@ -1,7 +1,8 @@
 #pragma once
 // One segment: parts of runs of one job in a small, complete, checksummed file (RESULT_FORMAT.md, "Segments").
 //
-// Use        write_segment() once; SegmentFile reads it back, its index first, histories when they are asked for
+// Use        write_segment() once; SegmentFile reads it back, its index first, histories when they are asked for: those
+//            of several runs at once, for runs are mostly asked for in the order in which they were written
 // Trust      the index is believed after its own checksums; histories only after verify(), which reads everything
 // Harm       checksums do not keep out who computes them, and HDF5 crashes on some such files: look_at_segment() opens
 //            one in a child first, and what did no harm there is read here
@@ -13,12 +14,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/run/run_part.hpp"
 #include "engine/store/file_place.hpp"
 #include "engine/store/result_reader.hpp"
+#include "engine/store/rows_ahead.hpp"
 #include "engine/store/segment_folder.hpp"
 
 namespace torquescope {
@@ -40,6 +43,9 @@ struct EstimatorParts {
   std::vector<RunPart> parts;
 };
 
+// where an estimator is in a segment
+inline std::string segment_group(std::string const& label) { return "/parts/" + label + "/"; }
+
 void write_segment(FilePlace const& place, SegmentOrigin const& origin, std::vector<EstimatorParts> const& estimators);
 
 class SegmentFile {
@@ -48,8 +54,9 @@ class SegmentFile {
   struct Entry {
     std::size_t run, first, count;
     bool ended;
-    std::size_t row;                     // where its generations begin in the lists
-    std::size_t state_first, state_end;  // entries of its optimiser's state
+    std::size_t row;                          // where its generations begin in the lists
+    std::size_t state_first, state_end;       // entries of its optimiser's state
+    std::size_t state_number, state_numbers;  // where their numbers begin, and how many they are
     std::string stop_reason;
   };
   struct Index {
@@ -58,30 +65,52 @@ class SegmentFile {
     std::vector<Entry> entries;
   };
 
-  explicit SegmentFile(FilePlace const& place);
+  // ahead: bytes of it, about, that are read and kept at once
+  static constexpr std::size_t most_ahead = std::size_t{2} << 20;
+  explicit SegmentFile(FilePlace const& place, std::size_t ahead = most_ahead);
 
-  std::filesystem::path const& name() const { return reader_.name(); }
+  std::filesystem::path const& name() const { return place_.path; }
   SegmentOrigin const& origin() const { return origin_; }
   std::map<std::string, Index> const& estimators() const { return estimators_; }  // by label
-  std::uint64_t bytes() const { return reader_.bytes(); }
-  void verify() const { static_cast<void>(reader_.verify()); }
-  RunPart read(std::string const& label, std::size_t entry) const;
+  std::uint64_t bytes() const { return bytes_; }
+  void verify() { static_cast<void>(reader().verify()); }
+  RunPart read(std::string const& label, std::size_t entry);
+  // the file; what was read stays, and it is opened again when more is asked for
+  void close() { reader_.reset(); }
 
  private:
-  void read_index(std::string const& label);
+  // datasets of one estimator
+  struct Lists {
+    std::string label;
+    std::vector<RowsAhead<double>> histories;  // as history_lists
+    RowsAhead<std::int64_t> evaluations, nonfinite;
+    RowsAhead<double> elapsed_s, parameters;
+    RowsAhead<std::string> state_names;
+    RowsAhead<std::int64_t> state_sizes;
+    RowsAhead<double> state_numbers;
+  };
 
-  ResultReader reader_;
+  ResultReader const& reader();
+  void read_index(std::string const& label);
+  Lists& lists(std::string const& label);
+  OptimiserState read_state(Lists& lists, Entry const& entry);
+
+  FilePlace place_;
+  std::optional<ResultReader> reader_;
+  std::uint64_t bytes_;
+  std::size_t ahead_;
   SegmentOrigin origin_;
   std::map<std::string, Index> estimators_;
+  std::optional<Lists> lists_;  // of the estimator that was asked for last
 };
 
 // opens a segment in a process of its own, for `look` to read what will be read of it. Errors: those of both; 65 when
 // HDF5 crashes, loops or takes too much memory
-void look_at_segment(FilePlace const& place, std::function<void(SegmentFile const&)> const& look);
+void look_at_segment(FilePlace const& place, std::function<void(SegmentFile&)> const& look);
 
 // The same for many, in one process: a process costs as much as a small segment. Whether each was read without
 // complaint; what was not is to be looked at by itself, which says why
 std::vector<bool> harmless_segments(std::vector<FilePlace> const& places,
-                                    std::function<void(SegmentFile const&)> const& look);
+                                    std::function<void(SegmentFile&)> const& look);
 
 }  // namespace torquescope

@@ -90,7 +90,7 @@ std::vector<EstimatorParts> gathered_parts(std::vector<FilePlace> const& segment
   std::map<std::string, std::size_t> place_of_estimator;
   std::map<std::pair<std::string, std::size_t>, std::size_t> place_of_run;
   for (auto const& place : segments) {
-    SegmentFile const segment(place);
+    SegmentFile segment(place);
     for (auto const& [label, index] : segment.estimators()) {
       auto const [estimator, is_new] = place_of_estimator.emplace(label, all.size());
       if (is_new) all.push_back({label, index.search_sha256, index.shape, {}});

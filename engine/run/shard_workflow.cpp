@@ -95,7 +95,7 @@ bool read_now(std::filesystem::path const& segment_folder, JobStatus& status) {
   status = {};
   std::map<std::string, Covered> estimators;
   std::map<std::tuple<std::string, std::int64_t, std::string>, JobStatus::Writer> writers;
-  auto const opened = [](SegmentFile const&) {};
+  auto const opened = [](SegmentFile&) {};
   OpenFolder const folder(segment_folder);
   auto const places = segments_in(folder);
   auto const harmless = harmless_segments(places, opened);

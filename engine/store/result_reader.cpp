@@ -63,12 +63,16 @@ Array read_array(h5::Handle const& file, std::string const& path, h5::Element el
   return array;
 }
 
+void expect_rows(h5::DatasetInfo const& info, std::size_t first, std::size_t count) {
+  if (first > info.rows() || count > info.rows() - first) throw h5::Failure("it has fewer rows than it should");
+}
+
 template <class Value>
 std::vector<Value> read_some_rows(h5::Handle const& file, std::string const& path, h5::Element element,
                                   std::size_t first, std::size_t count) {
   h5::Handle const dataset = h5::open_object(file, path);
   h5::DatasetInfo const info = describe_as(element, dataset);
-  if (first > info.rows() || count > info.rows() - first) throw h5::Failure("it has fewer rows than it should");
+  expect_rows(info, first, count);
   std::vector<Value> values(count * info.values_per_row());
   h5::read_rows(dataset, info, first, count, values.data());
   return values;
@@ -111,9 +115,11 @@ std::vector<std::string> ResultReader::children(std::string const& group) const 
   });
 }
 
-h5::Shape ResultReader::shape(std::string const& path) const {
-  return guarded(path, [&] { return h5::describe(h5::open_object(file_, path)).shape; });
+h5::DatasetInfo ResultReader::layout(std::string const& path) const {
+  return guarded(path, [&] { return h5::describe(h5::open_object(file_, path)); });
 }
+
+h5::Shape ResultReader::shape(std::string const& path) const { return layout(path).shape; }
 
 ResultReader::Numbers ResultReader::numbers(std::string const& path) const {
   return guarded(path, [&] { return read_array<Numbers>(file_, path, h5::Element::number); });
@@ -138,6 +144,15 @@ std::vector<std::string> ResultReader::texts(std::string const& path) const {
     h5::Handle const dataset = h5::open_object(file_, path);
     h5::DatasetInfo const info = describe_as(h5::Element::text, dataset);
     return h5::read_texts(dataset, info, 0, info.rows());
+  });
+}
+
+std::vector<std::string> ResultReader::text_rows(std::string const& path, std::size_t first, std::size_t count) const {
+  return guarded(path, [&] {
+    h5::Handle const dataset = h5::open_object(file_, path);
+    h5::DatasetInfo const info = describe_as(h5::Element::text, dataset);
+    expect_rows(info, first, count);
+    return h5::read_texts(dataset, info, first, count);
   });
 }
 

@@ -39,12 +39,14 @@ class ResultReader {
 
   // of a dataset, whatever it holds; its values are not read
   h5::Shape shape(std::string const& path) const;
+  h5::DatasetInfo layout(std::string const& path) const;
   Numbers numbers(std::string const& path) const;
   WholeNumbers whole_numbers(std::string const& path) const;
   // rows [first, first + count) of the first dimension alone; 65 when there are fewer
   std::vector<double> number_rows(std::string const& path, std::size_t first, std::size_t count) const;
   std::vector<std::int64_t> whole_number_rows(std::string const& path, std::size_t first, std::size_t count) const;
   std::vector<std::string> texts(std::string const& path) const;
+  std::vector<std::string> text_rows(std::string const& path, std::size_t first, std::size_t count) const;
 
   // Value: double (also from a whole number), std::int64_t, std::string, std::vector<double>, std::vector<std::string>
   template <class Value>

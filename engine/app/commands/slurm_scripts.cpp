@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/base/contract.hpp"
@@ -93,7 +94,17 @@ std::string merge_script(SlurmPlan const& plan) {
   fill_in_what_both_have(script, plan);
   fill_in(script, "#SBATCH --job-name=", sbatch_word(plan.name + "-merge"));
   fill_in(script, "#SBATCH --output=", sbatch_pattern(plan.result, ".merge.log"));
+  if (auto const time = merge_time(plan.result_bytes); !time.empty()) fill_in(script, "#SBATCH --time=", time);
   return script;
+}
+
+std::string merge_time(std::uintmax_t result_bytes) {
+  // a tenth of what was measured (bench/README.md, "Merging"): disks of clusters are shared
+  constexpr double bytes_a_second = 30e6;
+  constexpr int script_minutes = 30;  // as merge.sbatch says
+  auto const minutes = static_cast<std::int64_t>(std::ceil(static_cast<double>(result_bytes) / bytes_a_second / 60.0));
+  if (minutes <= script_minutes) return "";
+  return fmt::format("{}-{:02}:{:02}:00", minutes / (24 * 60), minutes / 60 % 24, minutes % 60);
 }
 
 }  // namespace torquescope

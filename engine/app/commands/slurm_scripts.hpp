@@ -15,16 +15,19 @@ namespace torquescope {
 struct SlurmPlan {
   std::string program, job, result, name;
   std::int64_t shards = 1, threads = 1;
-  std::string time{};         // "" leaves what the script says
-  std::string partition{};    // "" leaves it to the cluster
-  double save_every_s = 0.0;  // 0 leaves what the script says
-  bool diagnoses = false;     // every task can finish the diagnosis: then nothing is to be merged
+  std::string time{};               // "" leaves what the script says
+  std::string partition{};          // "" leaves it to the cluster
+  double save_every_s = 0.0;        // 0 leaves what the script says
+  bool diagnoses = false;           // every task can finish the diagnosis: then nothing is to be merged
+  std::uintmax_t result_bytes = 0;  // of what is merged
 };
 
 void check_plan(SlurmPlan const& plan);
 
 std::string array_script(SlurmPlan const& plan);
 std::string merge_script(SlurmPlan const& plan);
+// "1-02:30:00", or "" where what the script says suffices
+std::string merge_time(std::uintmax_t result_bytes);
 
 // 'a word of a shell', whatever letters it has
 std::string shell_word(std::string const& text);

@@ -18,6 +18,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/interrupted_call.hpp"
 #include "engine/job/job.hpp"
+#include "engine/run/disk_room.hpp"
 #include "engine/store/result_files.hpp"
 #include "engine/store/temp_file.hpp"
 
@@ -166,6 +167,7 @@ ExitCode submit_job(SubmitArguments const& arguments, Session const& session) {
   plan.time = arguments.time;
   plan.partition = arguments.partition;
   plan.save_every_s = arguments.save_every_s;
+  if (!plan.diagnoses) plan.result_bytes = result_bytes(experiment.parts());
   check_plan(plan);
   refuse_long_name(result);
   refuse_foreign_folder(segment_folder_of(result));

@@ -1,50 +1,32 @@
 #include "engine/app/report/page_builder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
+#include <algorithm>
+#include <cstdint>
 #include <system_error>
 
+#include "engine/app/report/child_program.hpp"
 #include "engine/app/terminal/environment.hpp"
 #include "engine/base/error.hpp"
-
-extern char** environ;
 
 namespace torquescope {
 
 namespace {
 
-enum class Voice { heard, silent };
+// Of the processor. A page takes some seconds, and one of a large result the time to read it; a question is answered
+// at once. Who needs more goes round in circles
+constexpr int question_seconds = 30, page_seconds = 60;
 
-// exit status of a program that was waited for; nothing when it could not be started or died of a signal
-std::optional<int> run_program(std::vector<std::string> arguments, Voice voice) {
-  std::vector<char*> pointers;
-  for (auto& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  if (voice == Voice::silent) {
-    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  } else {
-    // stdout belongs to the path of the page
-    ::posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+int seconds_for(std::vector<std::string> const& files) {
+  std::uintmax_t bytes = 0;
+  for (auto const& file : files) {
+    std::error_code unknown;
+    auto const size = std::filesystem::file_size(file, unknown);
+    if (!unknown) bytes += size;
   }
-  pid_t child = 0;
-  int const failure = ::posix_spawnp(&child, pointers[0], &actions, nullptr, pointers.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) return std::nullopt;
-
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return std::nullopt;
-  if (!WIFEXITED(status)) return std::nullopt;
-  return WEXITSTATUS(status);
+  constexpr std::uintmax_t most_seconds = 86'400;
+  return page_seconds + static_cast<int>(std::min(bytes >> 20, most_seconds));  // a second for each MiB
 }
 
 Error page_problem(ExitCode code, std::string what, std::string help) {
@@ -64,7 +46,7 @@ constexpr char const* question =
 std::string find_python() {
   std::optional<int> missing;
   for (char const* const python : {"/usr/bin/python3", "python3"}) {
-    auto const status = run_program({python, "-c", question}, Voice::silent);
+    auto const status = run_program({python, "-c", question}, Voice::silent, question_seconds).status;
     if (status == 0) return python;
     if (status && *status != 127 && !missing) missing = status;
   }
@@ -94,7 +76,12 @@ void run_page_program(std::string const& name, std::vector<std::string> const& f
   std::string const python = find_python();
   std::vector<std::string> arguments{python, program->string(), "--out=" + page.string(), "--"};
   arguments.insert(arguments.end(), files.begin(), files.end());
-  auto const status = run_program(std::move(arguments), Voice::heard);
+  ProgramEnd const end = run_program(std::move(arguments), Voice::heard, seconds_for(files));
+  if (end.used_up_its_time)
+    throw page_problem(ExitCode::internal, "the page builder used up its time and was stopped",
+                       "is memory limited (ulimit -v, a batch system)? numpy wants half a gigabyte of address space; "
+                       "the result files themselves are unharmed");
+  auto const status = end.status;
   if (status == static_cast<int>(ExitCode::bad_data))
     throw page_problem(ExitCode::bad_data, about + " to build a page from",
                        "the page builder's words stand above; torquescope show --verify says more");

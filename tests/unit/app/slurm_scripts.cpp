@@ -31,6 +31,15 @@ TEST(SlurmScripts, SayWhatWasAskedFor) {
   EXPECT_THAT(array_script({"t", "j", "r", "n", 2, 1}), Not(HasSubstr("--partition")));
 }
 
+TEST(SlurmScripts, AskForAsMuchTimeAsMergingTakes) {
+  SlurmPlan large = plan;
+  EXPECT_THAT(merge_script(large), HasSubstr("\n#SBATCH --time=00:30:00\n"));
+  large.result_bytes = std::uintmax_t{140'000'000'000};  // of ten million small runs
+  EXPECT_THAT(merge_script(large), HasSubstr("\n#SBATCH --time=0-01:18:00\n"));
+  EXPECT_EQ(merge_time(std::uintmax_t{4} << 40), "1-16:44:00");
+  EXPECT_EQ(merge_time(0), "");
+}
+
 TEST(SlurmScripts, AreValidForBash) {
   test::TemporaryFolder const folder;
   for (auto const& text : {array_script(plan), merge_script(plan)}) {

@@ -209,6 +209,40 @@ TEST_F(Keeping, SegmentsThatAreGatheredMeanwhileAreFoundAgain) {
   EXPECT_TRUE(runs.warnings().empty());
 }
 
+// neighbouring runs are in different segments, of more shards than a process may have files open
+TEST_F(Keeping, RunsOfHundredsOfShardsAreRead) {
+  auto const parts = folder_ / "r.h5.parts";
+  make_segment_folder(parts);
+  constexpr std::size_t shards = 210, runs = 2 * shards;
+  HistoryShape const many{runs, shape.generations, shape.members, shape.parameters};
+  auto const state_of = [](std::size_t run) {
+    auto const number = static_cast<double>(run);
+    return OptimiserState{{"few", {number}}, {"more", {number, 1.0, number}}, {"none", {}}};
+  };
+  for (std::size_t i = 0; i < shards; ++i) {
+    EstimatorParts estimator{"de", "search", many, {}};
+    for (std::size_t const run : {i + shards, i}) {
+      RunPart part = part_of(*ended(run, 4), many, run, 0, 4);
+      part.ended = true;
+      part.history.stop_reason = "target";
+      part.history.parameters = ended(run, 4)->parameters;
+      part.state = state_of(run);
+      estimator.parts.push_back(part);
+    }
+    SegmentOrigin of_shard = origin;
+    of_shard.shard_index = i;
+    of_shard.shard_count = shards;
+    write_segment(parts / ("shard-" + std::to_string(i) + ".h5"), of_shard, {estimator});
+  }
+  auto found = saved();
+  for (std::size_t run = 0; run < runs; ++run) {
+    auto const part = found.load("de", many, run);
+    ASSERT_TRUE(part && part->ended) << run;
+    expect_same_bits(part->history, *ended(run, 4));
+    EXPECT_EQ(part->history.last_state, state_of(run));
+  }
+}
+
 // each process a segment per run, as those of before gathering left them
 TEST_F(Keeping, WhatKilledProcessesLeftIsGatheredWriterByWriter) {
   auto const parts = folder_ / "r.h5.parts";
