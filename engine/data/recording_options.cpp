@@ -45,6 +45,24 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
        {"position_order", &Options::position_order,
         "of an arm: which number ({j}) the position column of each joint has: [1, 3, 2] exchanges joints 2 and 3"},
        {"torque_order", &Options::torque_order, "the same of the torque columns"},
+       {"torque_at",
+        &Options::torque_at,
+        {"joints", "motors"},
+        "of an arm with motor_turns_by: whether the torque columns, times torque_per_unit, are those of the joints or "
+        "of the motors on the joint side"},
+       {"wrench", &Options::wrench,
+        "of an arm: six columns, [\"fx\", \"fy\", \"fz\", \"mx\", \"my\", \"mz\"] in N and N m, of a sensor or "
+        "a force plate: a known torque of each joint, which is added to its own before any fit"},
+       {"wrench_frame",
+        &Options::wrench_frame,
+        {"tip", "base"},
+        "axes of wrench, in the robot file: those of the tip (the flange), or of the base; it acts at the tip's origin "
+        "either way"},
+       {"wrench_on",
+        &Options::wrench_on,
+        {"arm", "surroundings"},
+        "on whom wrench acts: arm: what the surroundings do to the arm (pressed down on a table, it is pushed up); "
+        "surroundings: what the arm does to them"},
        {"gaps",
         &Options::gaps,
         {"error", "fill"},

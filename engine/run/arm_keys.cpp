@@ -199,7 +199,8 @@ void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, st
     if (there != nullptr && there->find(key) != nullptr) refuse(*there, key, std::string(section) + "." + key);
   };
   for (auto const* key : {"drive_gains", "root", "tip"}) refuse_key("model", key);
-  for (auto const* key : {"payload_kg", "payload_first_moments_kgm", "validate_payload_kg"})
+  for (auto const* key : {"payload_kg", "payload_first_moments_kgm", "validate_payload_kg", "wrench", "wrench_frame",
+                          "wrench_on", "torque_at"})
     refuse_key("recording", key);
   auto const sections = job.all("estimator");
   for (std::size_t i = 0; i < plans.size(); ++i)
