@@ -74,12 +74,17 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
        {"simulated_position", &Options::simulated_position,
         "column with the position that your own simulator reaches from the same reference; replay sets it beside the "
         "recording"},
-       {"payload_kg", &Options::payload_kg,
-        "of an arm: mass that its last link carries, weighed, one number for each training recording; 0: none"},
+       {"payload_kg",
+        &Options::payload_kg,
+        {"unknown"},
+        "of an arm: mass that its last link carries, weighed, one number for each training recording; 0: none; "
+        "[0, \"unknown\"]: wls finds mass and centre of the second one's load"},
        {"payload_first_moments_kgm", &Options::payload_first_moments_kgm,
         "kg m, in the last link's frame: x, y, z of each training recording; none: they are parameters, as the "
         "payload's inertia"},
-       {"validate_payload_kg", &Options::validate_payload_kg,
+       {"validate_payload_kg",
+        &Options::validate_payload_kg,
+        {"unknown"},
         "of each validation recording: the mass of one of the training payloads, or 0"}});
   return table;
 }

@@ -193,6 +193,20 @@ def draw_joints(rng, kind=None, n=None):
     return joints
 
 
+def point_inertia(mass, shift):
+    return mass * (shift @ shift * np.eye(3) - np.outer(shift, shift))
+
+
+def loaded(joints, mass, place):
+    """The arm with a small ball at this place of its last link."""
+    last = joints[-1]
+    whole = last.mass + mass
+    centre = (last.mass * last.centre + mass * place) / whole
+    moved = point_inertia(last.mass, last.centre - centre) + point_inertia(mass, place - centre)
+    inertia = last.inertia + moved + mass * 1e-3 * np.eye(3)
+    return [*joints[:-1], dataclasses.replace(last, mass=whole, centre=centre, inertia=inertia)]
+
+
 def draw_motion(rng, joints, seconds, rate, vigour):
     """Sums of sines within limits; `vigour` is the share of the range that is used."""
     time = np.arange(int(seconds * rate)) / rate
