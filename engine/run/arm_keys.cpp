@@ -187,6 +187,14 @@ void refuse_beside_coupled_drives(Job const& job, std::vector<EstimatorPlan> con
                      "use wls"));
 }
 
+void refuse_motor_torques(Job const& job, RecordingOptions const& options, SerialChain const& chain,
+                          std::vector<Problem>& problems) {
+  if (options.torque_at == "joints" || chain.has_coupled_drives()) return;
+  problems.push_back(problem_at(section_or_empty(job, "recording"), "torque_at",
+                                "torque_at = \"motors\", and no motor turns with another joint than its own",
+                                "say which one does: motor_turns_by in [model.joint_3]; gears are torque_per_unit"));
+}
+
 void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems) {
   auto const refuse = [&](Section const& section, std::string const& key, std::string const& what) {
     problems.push_back(problem_at(section, key, what + " is of an arm: the job has no model.robot",

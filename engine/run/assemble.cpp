@@ -370,6 +370,7 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
       payloads = plan_payloads(job, recording, model.drive_gains, problems);
       parts->arm = read_arm(job, model, payloads.payloads);
       refuse_useless_payloads(*parts, problems);
+      refuse_motor_torques(job, recording, parts->arm->model.chain(), problems);
       check_wrench(job, recording, parts->estimators, model.drive_gains, problems);
       parts->arm->keeps_channels = purpose == Purpose::diagnose;
       choose_arm_effects(*parts, problems);
