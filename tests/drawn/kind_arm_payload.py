@@ -8,8 +8,8 @@ import numpy as np
 from arm import GRAVITY, draw_friction, draw_joints, draw_motion, full_torque, link_torque, loaded
 from arm_files import NAMES, Case, measured, tip_of
 
-ERRORS = 2.5  # standard errors, of mass and of each coordinate
-SMALL = 0.02  # of the mass; of the arm's last lengths, in m
+INTERVAL = 1.96  # standard errors
+SMALL, SMALL_M = 0.02, 0.005  # beside the interval, of the mass and of a coordinate: errors of the model, not noise
 
 
 def draw(rng, folder):
@@ -49,14 +49,15 @@ def draw(rng, folder):
         one = found.get(f"payload1_m{n}")
         if one is None:
             return f"{label}: no mass among {list(found)[-12:]}"
-        if abs(one["value"] - mass) > ERRORS * one["standard_error"] + SMALL * mass:
+        if abs(one["value"] - mass) > INTERVAL * one["standard_error"] + SMALL * mass:
             return f"{label}: {one['value']:.4g} +- {one['standard_error']:.2g} kg"
-        said = re.search(r"payload 1: (\S+) \+- (\S+) kg, centre at (.*?) m in the frame", " ".join(answer.text.split()))
+        words = " ".join(answer.text.split())
+        said = re.search(r"payload 1: (\S+) \+- (\S+) kg, centre at (.*?) m in the frame", words)
         if not said:
-            return f"{label}: says no centre: {answer.text[-600:]}"
+            return f"{label}: says no centre: {words[-600:]}"
         for told, true in zip(said[3].split(","), centre):
             value, error = (float(number) for number in told.split("+-"))
-            if abs(value - true) > ERRORS / 1.96 * error + SMALL * 0.5:
+            if abs(value - true) > error + SMALL_M:
                 return f"{label}: centre {said[3]}, true {np.round(centre, 3)}"
         return None
 
