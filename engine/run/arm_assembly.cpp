@@ -85,8 +85,17 @@ void take_motor_torques(Joints& joints, SerialChain const& chain, RecordingOptio
   Joints const motors = joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     joints[j].torque.setZero();
-    for (std::size_t m = 0; m < motors.size(); ++m)
-      joints[j].torque += chain.transmission(static_cast<Index>(m), static_cast<Index>(j)) * motors[m].torque;
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+      double const turns = chain.transmission(static_cast<Index>(m), static_cast<Index>(j));
+      joints[j].torque += turns * motors[m].torque;
+      if (m == j || turns == 0.0) continue;
+      // where a motor's torque is not known, that of no joint that feels it is
+      for (auto const& stretch : motors[m].left_out_because)
+        if (!stretch.of_motion) {
+          joints[j].left_out.push_back(stretch.where);
+          joints[j].left_out_because.push_back(stretch);
+        }
+    }
   }
 }
 
