@@ -19,7 +19,7 @@ void append_rows(Eigen::MatrixXd& to, Eigen::MatrixXd const& more) {
 }  // namespace
 
 void ArmSamples::add(std::vector<Motion> const& motion, std::vector<std::vector<bool>> const& moving, Index edge,
-                     Index most) {
+                     Index most, OutsideTorques const& outside_torques) {
   Index const n = motion.front().q.size() - 2 * edge;
   if (n < 2) return;
   Index const step = std::max<Index>(1, (n + most - 1) / most), rows = (n - 1) / step + 1;
@@ -48,6 +48,10 @@ void ArmSamples::add(std::vector<Motion> const& motion, std::vector<std::vector<
   append_rows(ddq, more.ddq);
   append_rows(tau, more.tau);
   append_rows(moves, more.moves);
+  if (outside_torques.as_read.size() == 0) return;
+  auto const taken = Eigen::seqN(edge, rows, step);
+  append_rows(outside, outside_torques.as_read(taken, Eigen::all));
+  append_rows(outside_otherwise, outside_torques.otherwise(taken, Eigen::all));
 }
 
 ArmSetup setup_as_read(SerialChain const& chain) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/data/motion.hpp"
+#include "engine/problem/recorded_arm.hpp"
 #include "engine/robot/serial_chain.hpp"
 
 namespace torquescope {
@@ -20,11 +21,13 @@ struct ArmSamples {
   Eigen::MatrixXd moves;             // 1 where the joint moves, else 0
   Eigen::VectorXd time_s;            // on each recording's own clock
   std::vector<Eigen::Index> begins;  // first row of each recording
+  // what a wrench at the tip adds to tau, and what it would add in its other frame; empty: there is none
+  Eigen::MatrixXd outside, outside_otherwise;
 
   Eigen::Index size() const { return q.rows(); }
   // of one recording: at most `most` samples, evenly, without `edge` samples at each end that a filter spoils
   void add(std::vector<Motion> const& motion, std::vector<std::vector<bool>> const& moving, Eigen::Index edge,
-           Eigen::Index most);
+           Eigen::Index most, OutsideTorques const& outside_torques = {});
 };
 
 enum class SetupKind {

@@ -27,7 +27,8 @@ Eigen::VectorXd mean_inertias(ArmModel const& model, Eigen::VectorXd const& para
   Eigen::VectorXd const standard = model.base().to_standard(parameters.head(model.base().size()));
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(joints), q(joints);
   double count = 0.0;
-  for (auto const& [arm, payload] : recordings) {
+  for (auto const& recording : recordings) {
+    auto const& arm = recording.joints;
     Eigen::Index const n = arm.front().position.size(), step = std::max<Eigen::Index>(1, n / instants);
     for (Eigen::Index i = 0; i < n; i += step, count += 1.0) {
       for (Eigen::Index j = 0; j < joints; ++j) q[j] = arm[static_cast<std::size_t>(j)].position[i];

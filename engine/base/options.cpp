@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/unknown_number.hpp"
+
 namespace torquescope {
 
 Setting const* Section::find(std::string_view key) const {
@@ -79,15 +81,19 @@ std::optional<OptionValue> converted(OptionValue const& given, OptionValue const
   // one text where a list may stand: train = "a.csv"
   if (auto const* text = std::get_if<std::string>(&given)) {
     if (wants_texts) return std::vector<std::string>{*text};
+    if (wants_numbers && *text == unknown_number) return std::vector<double>{std::nan("")};
   }
   // an empty list has no type of its own
   if (auto const* texts = std::get_if<std::vector<std::string>>(&given)) {
-    if (wants_numbers && texts->empty()) return std::vector<double>{};
+    auto const is_unknown = [](std::string const& text) { return text == unknown_number; };
+    if (wants_numbers && std::all_of(texts->begin(), texts->end(), is_unknown))
+      return std::vector<double>(texts->size(), std::nan(""));
   }
   return std::nullopt;
 }
 
 std::string range_text(double least, double most, std::vector<std::string> const& words) {
+  if (words.size() == 1 && words.front() == unknown_number) return fmt::format("numbers, \"{}\"", unknown_number);
   if (!words.empty()) return fmt::format("{}", fmt::join(words, " | "));
   constexpr double largest = std::numeric_limits<double>::max();
   bool const any_least = least <= -largest, any_most = most >= largest;
@@ -123,8 +129,10 @@ std::optional<Problem> check_option(OptionValue const& value, std::string const&
   if (auto const* number = std::get_if<double>(&value)) return outside(*number);
   if (auto const* word = std::get_if<std::string>(&value)) return unlisted(*word);
   if (auto const* numbers = std::get_if<std::vector<double>>(&value)) {
+    bool const may_be_unknown = std::find(words.begin(), words.end(), unknown_number) != words.end();
     for (double number : *numbers)
-      if (auto problem = outside(number)) return problem;
+      if (!(may_be_unknown && std::isnan(number)))
+        if (auto problem = outside(number)) return problem;
   }
   if (auto const* texts = std::get_if<std::vector<std::string>>(&value)) {
     for (auto const& word : *texts)

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/base/toml_nesting.hpp"
+#include "engine/base/unknown_number.hpp"
 
 #define TOML_EXCEPTIONS 0
 #define TOML_UNRELEASED_FEATURES 0
@@ -182,9 +183,27 @@ class SectionReader {
                   "put it in quotes if it is a text");
   }
 
+  // [0, "unknown"]: NaN stands for what is not known, and a key says whether it takes it
+  static bool has_unknown_numbers(toml::array const& list) {
+    bool has_number = false, has_unknown = false;
+    for (auto const& item : list) {
+      bool const is_unknown = item.is_string() && item.as_string()->get() == unknown_number;
+      if (!is_unknown && !item.is_number()) return false;
+      (is_unknown ? has_unknown : has_number) = true;
+    }
+    return has_number && has_unknown;
+  }
+
+  static OptionValue numbers_with_unknown(toml::array const& list) {
+    std::vector<double> numbers;
+    for (auto const& item : list) numbers.push_back(item.value<double>().value_or(std::nan("")));
+    return numbers;
+  }
+
   std::optional<OptionValue> read_list(std::string const& key, toml::array const& list) {
     if (list.empty()) return OptionValue(std::vector<std::string>{});
     std::string const first = type_word(list.front());
+    if (has_unknown_numbers(list)) return numbers_with_unknown(list);
     for (auto const& item : list)
       if (type_word(item) != first)
         return refuse(key, item, fmt::format("{} mixes {} and {}", key, first, type_word(item)),

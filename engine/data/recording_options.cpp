@@ -45,6 +45,25 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
        {"position_order", &Options::position_order,
         "of an arm: which number ({j}) the position column of each joint has: [1, 3, 2] exchanges joints 2 and 3"},
        {"torque_order", &Options::torque_order, "the same of the torque columns"},
+       {"torque_at",
+        &Options::torque_at,
+        {"joints", "motors"},
+        "of an arm with motor_turns_by: whether the torque columns, times torque_per_unit, are those of the joints or "
+        "of the motors on the joint side"},
+       {"wrench", &Options::wrench,
+        "of an arm: six columns, [\"fx\", \"fy\", \"fz\", \"mx\", \"my\", \"mz\"] in N and N m, of a sensor or "
+        "a force plate: a known torque of each joint, which is added to its own before any fit; laws of the gear's "
+        "load do not feel it"},
+       {"wrench_frame",
+        &Options::wrench_frame,
+        {"tip", "base"},
+        "axes of wrench, in the robot file: those of the tip (the flange), or of the base; it acts at the tip's origin "
+        "either way"},
+       {"wrench_on",
+        &Options::wrench_on,
+        {"arm", "surroundings"},
+        "on whom wrench acts: arm: what the surroundings do to the arm (pressed down on a table, it is pushed up); "
+        "surroundings: what the arm does to them"},
        {"gaps",
         &Options::gaps,
         {"error", "fill"},
@@ -56,12 +75,17 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
        {"simulated_position", &Options::simulated_position,
         "column with the position that your own simulator reaches from the same reference; replay sets it beside the "
         "recording"},
-       {"payload_kg", &Options::payload_kg,
-        "of an arm: mass that its last link carries, weighed, one number for each training recording; 0: none"},
+       {"payload_kg",
+        &Options::payload_kg,
+        {"unknown"},
+        "of an arm: mass that its last link carries, weighed, one number for each training recording; 0: none; "
+        "[0, \"unknown\"]: wls finds mass and centre of the second one's load"},
        {"payload_first_moments_kgm", &Options::payload_first_moments_kgm,
         "kg m, in the last link's frame: x, y, z of each training recording; none: they are parameters, as the "
         "payload's inertia"},
-       {"validate_payload_kg", &Options::validate_payload_kg,
+       {"validate_payload_kg",
+        &Options::validate_payload_kg,
+        {"unknown"},
         "of each validation recording: the mass of one of the training payloads, or 0"}});
   return table;
 }

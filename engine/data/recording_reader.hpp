@@ -43,6 +43,10 @@ struct RecordingOptions {
   std::vector<double> joint_sign{1.0}, zero{0.0};
   // of an arm: numbers, from 1, of the joint whose column each joint has; empty: its own
   std::vector<double> position_order{}, torque_order{};
+  std::string torque_at = "joints";  // of an arm with coupled drives: or "motors"
+  // of an arm: columns of force (N) and moment (N m) at its tip; about which axes, and on whom they act
+  std::vector<std::string> wrench{};
+  std::string wrench_frame = "tip", wrench_on = "arm";
 
   double delay() const { return delay_s.front(); }
   double torque_factor() const { return torque_per_unit.front(); }

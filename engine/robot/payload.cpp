@@ -1,6 +1,7 @@
 #include "engine/robot/payload.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/robot/ordered_basis.hpp"
 
@@ -18,11 +19,29 @@ struct At {
 
 // as base parameters stand
 std::vector<Index> unknown_numbers(Payload const& payload) {
+  // where it is no sum of the others
+  if (!payload.mass_kg) return {At::zz, At::xy, At::xz, At::yz, At::mx, At::my, At::xx, At::mz, At::yy, At::m};
   if (payload.first_moments) return {At::zz, At::xy, At::xz, At::yz, At::xx, At::yy};
   return {At::zz, At::xy, At::xz, At::yz, At::mx, At::my, At::xx, At::mz, At::yy};
 }
 
 }  // namespace
+
+PayloadCentre payload_centre(SerialChain const& chain, Eigen::Vector4d const& numbers,
+                             Eigen::Matrix4d const& covariance) {
+  double const mass = numbers[0];
+  Eigen::Vector3d const centre = numbers.tail<3>() / mass;
+  Eigen::Matrix3d const into = chain.flange.rotation.transpose();
+  Eigen::Matrix<double, 3, 4> slope;
+  slope << -centre / mass, Eigen::Matrix3d::Identity() / mass;
+  slope = (into * slope).eval();
+  PayloadCentre found;
+  found.mass_kg = mass;
+  found.mass_error = std::sqrt(covariance(0, 0));
+  found.centre_m = into * (centre - chain.flange.position);
+  found.centre_error = (slope * covariance * slope.transpose()).diagonal().cwiseSqrt();
+  return found;
+}
 
 PayloadColumns payload_columns(SerialChain const& chain, BaseParameters const& base, Payload const& payload) {
   constexpr double independent = 1e-9;
@@ -31,7 +50,7 @@ PayloadColumns payload_columns(SerialChain const& chain, BaseParameters const& b
     return base.from_standard(value * VectorXd::Unit(base.standard_size(), first + number));
   };
   PayloadColumns columns;
-  columns.known = moved(At::m, payload.mass_kg);
+  columns.known = moved(At::m, payload.mass_kg.value_or(0.0));
   if (payload.first_moments)
     for (Index axis = 0; axis < 3; ++axis) columns.known += moved(At::mx + axis, (*payload.first_moments)[axis]);
 
@@ -55,7 +74,7 @@ PayloadColumns payload_columns(SerialChain const& chain, BaseParameters const& b
   for (Index const k : kept) {
     Index const number = numbers[static_cast<std::size_t>(k)];
     columns.names.push_back(base.standard_names()[static_cast<std::size_t>(first + number)]);
-    columns.units.emplace_back(number < At::xx ? "kg m" : "kg m^2");
+    columns.units.emplace_back(number == At::m ? "kg" : number < At::xx ? "kg m" : "kg m^2");
   }
   return columns;
 }

@@ -23,6 +23,7 @@
 #include "engine/robot/robot_registry.hpp"
 #include "engine/run/arm_instruments.hpp"
 #include "engine/run/arm_keys.hpp"
+#include "engine/run/arm_wrench.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/run/recordings_of_job.hpp"
 #include "engine/run/sample_range.hpp"
@@ -64,7 +65,8 @@ Files read_files(Job const& job, std::vector<std::string> const& files, Recordin
   for (std::size_t k = 0; k < files.size(); ++k) {
     RawTable const table = table_of_job(job, files[k], section, tables);
     for (auto const& one : of_joints) refuse_huge_samples(table, one);
-    recordings.push_back({make_arm_recording(table, of_joints, joint_names, section).joints, payloads[k]});
+    recordings.push_back({make_arm_recording(table, of_joints, joint_names, section).joints, payloads[k],
+                          read_wrench(table, of_joints.front(), section)});
   }
   return recordings;
 }
@@ -77,12 +79,33 @@ Section const* instrumental_section(Experiment::Parts const& parts) {
   return nullptr;
 }
 
+// columns of motors: each joint feels its own, and those that turn with it
+void take_motor_torques(Joints& joints, SerialChain const& chain, RecordingOptions const& options) {
+  if (options.torque_at != "motors" || !chain.has_coupled_drives()) return;
+  Joints const motors = joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    joints[j].torque.setZero();
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+      double const turns = chain.transmission(static_cast<Index>(m), static_cast<Index>(j));
+      joints[j].torque += turns * motors[m].torque;
+      if (m == j || turns == 0.0) continue;
+      // where a motor's torque is not known, that of no joint that feels it is
+      for (auto const& stretch : motors[m].left_out_because)
+        if (!stretch.of_motion) {
+          joints[j].left_out.push_back(stretch.where);
+          joints[j].left_out_because.push_back(stretch);
+        }
+    }
+  }
+}
+
 void split_files(Files& train, Files& unseen, double share) {
   if (share >= 1.0) return;
-  for (auto& [joints, payload] : train) {
-    Joints tails;
-    split_off_unseen(joints, tails, share);
-    unseen.push_back({std::move(tails), payload});
+  for (auto& file : train) {
+    RecordedArm tail{{}, file.payload};
+    split_off_unseen(file.joints, tail.joints, share);
+    split_off_unseen(file.wrench, tail.wrench, share);
+    unseen.push_back(std::move(tail));
   }
 }
 
@@ -92,7 +115,10 @@ void bring_files_to_one_rate(Files& train, Files& unseen) {
   for (auto const& file : unseen) first_of_unseen.push_back(file.joints.front());
   double const rate_hz = rate_of_job(first_of_train, first_of_unseen);
   for (auto* files : {&train, &unseen})
-    for (auto& file : *files) bring_joints_to_rate(file.joints, rate_hz);
+    for (auto& file : *files) {
+      bring_joints_to_rate(file.joints, rate_hz);
+      bring_to_rate(file.wrench, rate_hz);
+    }
 }
 
 // an arm of which no joint moves tells nothing; one joint that stands still is worth a warning
@@ -111,8 +137,9 @@ void grade_standstill(Joints& joints) {
 FilterSuggestion suggest_filter_of(SerialChain const& chain, Files const& train, Files const& unseen) {
   double shortest_s = std::numeric_limits<double>::infinity();
   for (auto const* files : {&train, &unseen})
-    for (auto const& [joints, payload] : *files)
-      shortest_s = std::min(shortest_s, static_cast<double>(joints.front().position.size()) / joints.front().rate_hz);
+    for (auto const& file : *files)
+      shortest_s =
+          std::min(shortest_s, static_cast<double>(file.joints.front().position.size()) / file.joints.front().rate_hz);
   FilterSuggestion best;
   for (auto const kind : {JointKind::revolute, JointKind::prismatic}) {
     Joints alike;
@@ -178,7 +205,7 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
   constexpr Index most_samples = 1200;
   if (samples != nullptr && !file.payload)
     samples->add(motion, telling_samples(moves, motion, parts.filter), edge_samples(parts.filter, whole.rate_hz),
-                 most_samples);
+                 most_samples, file.outside);
   whole.findings = joined_findings(whole.findings);
   auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter, file.payload);
   set.recordings.push_back(std::move(whole));
@@ -201,10 +228,10 @@ std::vector<RecordedRows> prepare_files(Files&& files, Experiment::Parts const& 
 void require_references(Experiment::Parts const& parts, Files const& train) {
   auto const is_there = [](Recording const& joint) { return joint.reference.size() > 0; };
   std::vector<Problem> problems;
-  for (auto const& [joints, payload] : train)
-    if (!std::all_of(joints.begin(), joints.end(), is_there))
+  for (auto const& file : train)
+    if (!std::all_of(file.joints.begin(), file.joints.end(), is_there))
       problems.push_back(problem_at(*instrumental_section(parts), "name",
-                                    joints.front().name + " has no commanded positions: iv has no instruments",
+                                    file.joints.front().name + " has no commanded positions: iv has no instruments",
                                     "name them in recording.columns, as reference = \"q_ref{j}_rad\"; without them use "
                                     "wls"));
   if (!problems.empty()) throw Error(std::move(problems));
@@ -280,6 +307,11 @@ void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, Pa
   Files unseen = read_files(parts.job, options.validate, options, payloads.validate, names, tables);
   split_files(train, unseen, options.train_share);
   bring_files_to_one_rate(train, unseen);
+  for (auto* files : {&train, &unseen})
+    for (auto& file : *files) {
+      take_motor_torques(file.joints, parts.arm->model.chain(), options);
+      add_wrench(file, parts.arm->model.chain(), options);
+    }
   for (auto& file : train) grade_standstill(file.joints);
   choose_filter(parts, train, unseen);
   use_recordings(parts, std::move(train), std::move(unseen));

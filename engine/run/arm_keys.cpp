@@ -187,6 +187,14 @@ void refuse_beside_coupled_drives(Job const& job, std::vector<EstimatorPlan> con
                      "use wls"));
 }
 
+void refuse_motor_torques(Job const& job, RecordingOptions const& options, SerialChain const& chain,
+                          std::vector<Problem>& problems) {
+  if (options.torque_at == "joints" || chain.has_coupled_drives()) return;
+  problems.push_back(problem_at(section_or_empty(job, "recording"), "torque_at",
+                                "torque_at = \"motors\", and no motor turns with another joint than its own",
+                                "say which one does: motor_turns_by in [model.joint_3]; gears are torque_per_unit"));
+}
+
 void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems) {
   auto const refuse = [&](Section const& section, std::string const& key, std::string const& what) {
     problems.push_back(problem_at(section, key, what + " is of an arm: the job has no model.robot",
@@ -199,7 +207,8 @@ void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, st
     if (there != nullptr && there->find(key) != nullptr) refuse(*there, key, std::string(section) + "." + key);
   };
   for (auto const* key : {"drive_gains", "root", "tip"}) refuse_key("model", key);
-  for (auto const* key : {"payload_kg", "payload_first_moments_kgm", "validate_payload_kg"})
+  for (auto const* key : {"payload_kg", "payload_first_moments_kgm", "validate_payload_kg", "wrench", "wrench_frame",
+                          "wrench_on", "torque_at"})
     refuse_key("recording", key);
   auto const sections = job.all("estimator");
   for (std::size_t i = 0; i < plans.size(); ++i)

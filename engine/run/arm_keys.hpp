@@ -28,6 +28,10 @@ void refuse_beside_laws(Job const& job, std::vector<EstimatorPlan> const& plans,
 void refuse_beside_coupled_drives(Job const& job, std::vector<EstimatorPlan> const& plans,
                                   std::vector<Problem>& problems);
 
+// torque_at = "motors" of an arm whose motors turn their own joints alone
+void refuse_motor_torques(Job const& job, RecordingOptions const& options, SerialChain const& chain,
+                          std::vector<Problem>& problems);
+
 // of a job about one joint: what only an arm has
 void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems);
 

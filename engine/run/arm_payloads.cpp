@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/run/job_sections.hpp"
+#include "engine/statistics/student_t.hpp"
 
 namespace torquescope {
 
@@ -21,9 +23,12 @@ void check_count(Section const& section, char const* key, std::vector<double> co
                            : "write three numbers a recording: x, y, z; 0, 0, 0 where the arm carries nothing"));
 }
 
+// "unknown" is read as NaN
+std::optional<double> mass_of(double written) { return std::isnan(written) ? std::nullopt : std::optional(written); }
+
 void check_masses(Section const& section, char const* key, std::vector<double> const& masses,
                   std::vector<Problem>& problems) {
-  if (std::all_of(masses.begin(), masses.end(), [](double mass) { return mass >= 0.0; })) return;
+  if (std::all_of(masses.begin(), masses.end(), [](double mass) { return !mass_of(mass) || mass >= 0.0; })) return;
   problems.push_back(problem_at(section, key, "a payload's mass is below 0", "write what the scales show, in kg"));
 }
 
@@ -31,10 +36,11 @@ void check_masses(Section const& section, char const* key, std::vector<double> c
 void check_moments(Section const& section, RecordingOptions const& options, std::vector<Problem>& problems) {
   auto const& moments = options.payload_first_moments_kgm;
   for (std::size_t k = 0; 3 * k < moments.size(); ++k)
-    if (options.payload_kg[k] == 0.0 &&
+    if (!(options.payload_kg[k] > 0.0) &&
         (moments[3 * k] != 0.0 || moments[3 * k + 1] != 0.0 || moments[3 * k + 2] != 0.0))
       problems.push_back(problem_at(section, "payload_first_moments_kgm",
-                                    fmt::format("recording {} carries nothing, and has first moments", k + 1),
+                                    fmt::format("recording {} carries {}, and has first moments", k + 1,
+                                                mass_of(options.payload_kg[k]) ? "nothing" : "an unknown mass"),
                                     "write its mass into payload_kg, or 0, 0, 0"));
 }
 
@@ -42,9 +48,9 @@ void check_moments(Section const& section, RecordingOptions const& options, std:
 void find_payloads(RecordingOptions const& options, PayloadPlan& plan) {
   auto const& moments = options.payload_first_moments_kgm;
   for (std::size_t k = 0; k < options.payload_kg.size(); ++k) {
-    Payload payload{options.payload_kg[k], {}};
+    Payload payload{mass_of(options.payload_kg[k]), {}};
     if (payload.mass_kg == 0.0) continue;
-    if (!moments.empty())
+    if (!moments.empty() && payload.mass_kg)
       payload.first_moments = Eigen::Vector3d(moments[3 * k], moments[3 * k + 1], moments[3 * k + 2]);
     auto const same = std::find(plan.payloads.begin(), plan.payloads.end(), payload);
     plan.train[k] = static_cast<std::size_t>(same - plan.payloads.begin());
@@ -57,10 +63,11 @@ void find_validation_payloads(Section const& section, std::vector<double> const&
   for (std::size_t k = 0; k < masses.size(); ++k) {
     if (masses[k] == 0.0) continue;
     auto const same = std::find_if(plan.payloads.begin(), plan.payloads.end(),
-                                   [&](Payload const& payload) { return payload.mass_kg == masses[k]; });
+                                   [&](Payload const& payload) { return payload.mass_kg == mass_of(masses[k]); });
     if (same == plan.payloads.end())
       problems.push_back(problem_at(section, "validate_payload_kg",
-                                    fmt::format("no training recording carries {:g} kg", masses[k]),
+                                    mass_of(masses[k]) ? fmt::format("no training recording carries {:g} kg", masses[k])
+                                                       : "no training recording carries an unknown load",
                                     "what is not known of a payload is found in training: carry it there too"));
     else
       plan.validate[k] = static_cast<std::size_t>(same - plan.payloads.begin());
@@ -93,12 +100,44 @@ PayloadPlan plan_payloads(Job const& job, RecordingOptions const& options, bool 
   if (problems.size() > before) return plan;
   find_payloads(options, plan);
   find_validation_payloads(section, options.validate_payload_kg, plan, problems);
+  bool const has_unknown =
+      std::any_of(plan.payloads.begin(), plan.payloads.end(), [](Payload const& one) { return !one.mass_kg; });
+  if (has_unknown && !are_different(plan.train))
+    problems.push_back(problem_at(section, "payload_kg", "a load of unknown mass is in every training recording",
+                                  "record once without it, and write payload_kg = [0, \"unknown\"]"));
   if (has_drive_gains && !are_different(plan.train))
     problems.push_back(problem_at(
         section_or_empty(job, "model"), "drive_gains", "drive_gains needs training recordings with different payloads",
         "record once without and once with a weighed payload, and write payload_kg = [0, 5.0] "
         "into [recording]"));
   return plan;
+}
+
+std::string payload_words(ArmModel const& model, LeastSquaresFit const& fit) {
+  std::vector<std::string> const names = model.names();
+  std::vector<std::string> words;
+  if (fit.standard_error.size() != fit.parameters.size()) return {};
+  for (std::size_t p = 0; p < model.payloads().size(); ++p) {
+    auto const& own = model.payloads()[p].names;
+    auto const mass = std::find(own.begin(), own.end(), fmt::format("m{}", model.joints()));
+    if (mass == own.end()) continue;  // known, or a sum of others
+    auto const at = std::find(names.begin(), names.end(), fmt::format("payload{}_{}", p + 1, *mass)) - names.begin();
+    double const value = fit.parameters[at], error = normal_quantile_975 * fit.standard_error[at];
+    std::string text = fmt::format("payload {}: {:.4g} +- {:.2g} kg", p + 1, value, error);
+    if (!std::isfinite(error)) continue;
+    bool const has_all = own.size() == static_cast<std::size_t>(numbers_per_link);
+    if (has_all && value > error && fit.covariance_hac.rows() == fit.parameters.size()) {
+      // its first four
+      PayloadCentre const found =
+          payload_centre(model.chain(), fit.parameters.segment<4>(at), fit.covariance_hac.block<4, 4>(at, at));
+      std::vector<std::string> axes;
+      for (Eigen::Index k = 0; k < 3; ++k)
+        axes.push_back(fmt::format("{:.3f} +- {:.2g}", found.centre_m[k], normal_quantile_975 * found.centre_error[k]));
+      text += fmt::format(", centre at {} m in the frame of the tip", fmt::join(axes, ", "));
+    }
+    words.push_back(text + " (95 %)");
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
 }
 
 void refuse_useless_payloads(Experiment::Parts const& parts, std::vector<Problem>& problems) {

@@ -9,8 +9,10 @@
 // Threads    free functions
 
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "engine/problem/least_squares.hpp"
 #include "engine/run/experiment_parts.hpp"
 
 namespace torquescope {
@@ -25,6 +27,9 @@ struct PayloadPlan {
 
 PayloadPlan plan_payloads(Job const& job, RecordingOptions const& options, bool has_drive_gains,
                           std::vector<Problem>& problems);
+
+// mass and centre of each load of unknown mass, with their 95 % intervals by HAC errors; "" where there is none
+std::string payload_words(ArmModel const& model, LeastSquaresFit const& fit);
 
 // once the arm is known
 void refuse_useless_payloads(Experiment::Parts const& parts, std::vector<Problem>& problems);

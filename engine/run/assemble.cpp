@@ -17,6 +17,7 @@
 #include "engine/run/arm_assembly.hpp"
 #include "engine/run/arm_findings.hpp"
 #include "engine/run/arm_keys.hpp"
+#include "engine/run/arm_wrench.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/fit_findings.hpp"
 #include "engine/run/foreign_file.hpp"
@@ -370,6 +371,8 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
       payloads = plan_payloads(job, recording, model.drive_gains, problems);
       parts->arm = read_arm(job, model, payloads.payloads);
       refuse_useless_payloads(*parts, problems);
+      refuse_motor_torques(job, recording, parts->arm->model.chain(), problems);
+      check_wrench(job, recording, parts->estimators, model.drive_gains, problems);
       parts->arm->keeps_channels = purpose == Purpose::diagnose;
       choose_arm_effects(*parts, problems);
     } else {

@@ -12,6 +12,7 @@
 #include "engine/data/filter_checks.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/run/arm_findings.hpp"
+#include "engine/run/arm_wrench.hpp"
 #include "engine/run/diagnosis_estimate.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/search_box.hpp"
@@ -303,6 +304,8 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   if (parts_->arm) {
     auto const told = arm_identifiability(*parts_);
     lines.push_back({told.all_seen ? Level::ok : Level::warn, "identifiable", told.words});
+    if (auto const wrench = wrench_account(*parts_); !wrench.words.empty())
+      lines.push_back({wrench.explains ? Level::ok : Level::warn, "wrench", wrench.words});
   }
 
   if (parts_->rollout)

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/effects/joint_form.hpp"
 #include "engine/problem/arm_accuracy.hpp"
+#include "engine/run/arm_payloads.hpp"
 #include "engine/run/arm_writer.hpp"
 #include "engine/run/disk_room.hpp"
 #include "engine/run/estimator_writer.hpp"
@@ -100,7 +101,10 @@ RunResults run_lm(Study const& study, EstimatorPlan const& plan) {
 RunResults run_closed_form(Study const& study, EstimatorPlan const& plan) {
   if (plan.lm) return run_lm(study, plan);
   StageProgress progress(study.progress, plan.label, 1, 1);
-  LeastSquaresFit const fit = plan.fit(study.parts.train.regression);
+  LeastSquaresFit fit = plan.fit(study.parts.train.regression);
+  if (study.parts.arm)
+    if (auto const loads = payload_words(study.parts.arm->model, fit); !loads.empty())
+      fit.remark += (fit.remark.empty() ? "" : "; ") + loads;
   RunResults results;
   keep_run(gap_to_floor(study, fit.parameters), fit.parameters, "closed form", 1, 0, results);
   measure_runs(study, results);

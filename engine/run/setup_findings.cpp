@@ -7,6 +7,7 @@
 #include "engine/arms/link_change.hpp"
 #include "engine/arms/setup_search.hpp"
 #include "engine/data/arm_recording.hpp"
+#include "engine/run/arm_wrench.hpp"
 
 namespace torquescope {
 namespace {
@@ -193,6 +194,11 @@ std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOpt
   constexpr Index fewest = 200;
   if (arm.samples.size() < fewest) return findings;
   add_limits(parts, findings);
+  // a wrench of another sign or frame looks like all other mistakes
+  if (auto wrong = wrench_findings(parts, options); !wrong.empty()) {
+    findings.push_back(std::move(wrong.front()));
+    return findings;
+  }
   SetupSearch const found = search_setup(arm.samples, with_own_drives(arm.model.chain()), chain_otherwise(arm));
   if (found.steps.empty()) {
     add_link_change(parts, findings);

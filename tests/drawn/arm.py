@@ -72,7 +72,19 @@ class Motion:
     ddq: np.ndarray
 
 
-def link_torque(joints, motion, gravity=GRAVITY):
+@dataclasses.dataclass
+class Push:
+    """What surroundings do to the last link: force and moment [samples, 3] about the origin of a frame that `turn` and
+    `shift` place in the last joint's, along that frame's axes or along those of the base."""
+
+    force: np.ndarray
+    moment: np.ndarray
+    turn: np.ndarray
+    shift: np.ndarray
+    along_base: bool = False
+
+
+def link_torque(joints, motion, gravity=GRAVITY, push_at_tip=None):
     """Torques [samples, joints] that carry and accelerate the links: recursive Newton-Euler, without drives."""
     n, samples = len(joints), len(motion.q)
     turns, shifts = [], []
@@ -110,6 +122,14 @@ def link_torque(joints, motion, gravity=GRAVITY):
         shifts.append(along)
     torque = np.empty((samples, n))
     force, moment = np.zeros((samples, 3)), np.zeros((samples, 3))
+    if push_at_tip:
+        into = np.tile(push_at_tip.turn, (samples, 1, 1))  # from the axes of the push to those of the last link
+        if push_at_tip.along_base:
+            into = np.tile(np.eye(3), (samples, 1, 1))
+            for turn in turns:
+                into = np.einsum("sji,sjk->sik", turn, into)
+        force = -np.einsum("sij,sj->si", into, push_at_tip.force)
+        moment = -np.einsum("sij,sj->si", into, push_at_tip.moment) + np.cross(push_at_tip.shift, force)
     for j in reversed(range(n)):
         if j + 1 < n:
             force = np.einsum("sij,sj->si", turns[j + 1], force)
@@ -171,6 +191,20 @@ def draw_joints(rng, kind=None, n=None):
             gear=float(rng.choice([50, 80, 100, 101, 120, 160])), lower=middle - limit, upper=middle + limit,
             speed=float(np.round(rng.uniform(2.5, 4.0), 2))))
     return joints
+
+
+def point_inertia(mass, shift):
+    return mass * (shift @ shift * np.eye(3) - np.outer(shift, shift))
+
+
+def loaded(joints, mass, place):
+    """The arm with a small ball at this place of its last link."""
+    last = joints[-1]
+    whole = last.mass + mass
+    centre = (last.mass * last.centre + mass * place) / whole
+    moved = point_inertia(last.mass, last.centre - centre) + point_inertia(mass, place - centre)
+    inertia = last.inertia + moved + mass * 1e-3 * np.eye(3)
+    return [*joints[:-1], dataclasses.replace(last, mass=whole, centre=centre, inertia=inertia)]
 
 
 def draw_motion(rng, joints, seconds, rate, vigour):

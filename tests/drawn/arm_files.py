@@ -134,6 +134,19 @@ class Case:
         np.savetxt(path, table, "%.9g", ",", header=",".join(head), comments="")
 
 
+def tip_of(case, folder):
+    """The file's tip frame seen from the last joint's: turn and shift."""
+    if case.is_urdf:
+        text = re.findall(r'<axis xyz="([^"]*)"', (folder / "arm.urdf").read_text(encoding="utf-8"))[-1]
+        axis = np.array([float(number) for number in text.split()])
+        along = int(abs(axis).argmax())
+        own = {0: about(1, -np.pi / 2), 1: about(0, np.pi / 2), 2: np.eye(3)}[along]
+        return (own if axis[along] > 0 else about(0, np.pi) @ own), np.zeros(3)
+    if case.convention == "standard_dh":
+        return about(0, np.pi / 2), np.array([0.05, 0.0, 0.0])
+    return np.eye(3), np.zeros(3)
+
+
 def write_job(path, job):
     text = "\n".join(f"[{name}]\n" + "".join(f"{key} = {value}\n" for key, value in keys.items())
                      for name, keys in job.items())

@@ -1,5 +1,5 @@
 """An arm with a motor that turns with two joints: with its row of the transmission errors on unseen rows fall to those
-of the noise and its parameters lie in their intervals; without it they do not.
+of the noise and its parameters lie in their intervals; without it they do not. Half of them record torques of motors.
 """
 
 import copy
@@ -39,13 +39,19 @@ def draw(rng, folder):
         whole = torque_of(case, taken.motion, case.friction, matrix)
         noises.append(noise.std(0) / np.sqrt((whole**2).mean(0)))
         taken.torque = whole + noise
+    at_motors = bool(rng.random() < 0.5)  # what is recorded: tau_joint = T' tau_motor
+    if at_motors:
+        for taken in (case.train, case.unseen):
+            taken.torque = taken.torque @ np.linalg.inv(matrix)
     case.write(rng, folder)
     job = case.job()
     row = "[" + ", ".join(f"{x:g}" for x in matrix[motor]) + "]"
     told = copy.deepcopy(job)
     told[f"model.joint_{motor + 1}"] = {"motor_turns_by": row}
+    if at_motors:
+        told["recording"]["torque_at"] = '"motors"'
     write_job(folder / "told.toml", told)
-    label = f"{n} joints, motor {motor + 1} turns by {row}"
+    label = f"{n} joints, motor {motor + 1} turns by {row}{', torques of motors' if at_motors else ''}"
 
     def judge(call):
         checked = call("check", "told.toml")
@@ -54,6 +60,9 @@ def draw(rng, folder):
         errors = {}
         for name in ("job", "told"):
             run = call("run", f"{name}.toml", "--out", f"{name}.h5")
+            if run.code and name == "job" and at_motors:  # as those of joints they may be no arm's
+                errors[name] = np.full(n, np.inf)
+                continue
             if run.code:
                 return f"{label}: run {name}: {run.text[-400:]}"
             errors[name] = np.array(run.document["estimators"][0]["arm"]["validation_joint_relerr"], float)

@@ -2,27 +2,12 @@
 the payload does not tell them; it blames no sign and calls nothing negative.
 """
 
-import dataclasses
-
 import numpy as np
-from arm import GRAVITY, draw_friction, draw_joints, draw_motion, full_torque, link_torque
+from arm import GRAVITY, draw_friction, draw_joints, draw_motion, full_torque, link_torque, loaded
 from arm_files import NAMES, Case, measured
 
 ERRORS = 5.0  # of a gain, in its own standard errors: model errors beside noise
 SMALL = 0.05
-
-
-def about(mass, shift):
-    return mass * (shift @ shift * np.eye(3) - np.outer(shift, shift))
-
-
-def loaded(joints, mass, place):
-    last = joints[-1]
-    whole = last.mass + mass
-    centre = (last.mass * last.centre + mass * place) / whole
-    inertia = (last.inertia + about(last.mass, last.centre - centre) + about(mass, place - centre)
-               + mass * 1e-3 * np.eye(3))
-    return [*joints[:-1], dataclasses.replace(last, mass=whole, centre=centre, inertia=inertia)]
 
 
 def draw(rng, folder):

@@ -10,6 +10,7 @@ struct Lamp {
   std::int64_t bulbs = 1;
   std::string colour = "white";
   std::vector<std::string> rooms{};
+  std::vector<double> hours{}, watts{};
 };
 
 OptionTable<Lamp> const& lamp_table() {
@@ -17,7 +18,9 @@ OptionTable<Lamp> const& lamp_table() {
                                        {{"brightness", &Lamp::brightness, "1", 0.0, 1.0, "how bright"},
                                         {"bulbs", &Lamp::bulbs, "", 1, 8, "how many"},
                                         {"colour", &Lamp::colour, {"white", "warm"}, "which light"},
-                                        {"rooms", &Lamp::rooms, "where"}});
+                                        {"rooms", &Lamp::rooms, "where"},
+                                        {"hours", &Lamp::hours, {"unknown"}, "how old"},
+                                        {"watts", &Lamp::watts, "how much"}});
   return table;
 }
 
@@ -65,11 +68,21 @@ TEST(OptionTable, RangeAndWordsAreChecked) {
   EXPECT_EQ(problems_of("brightness", std::numeric_limits<double>::quiet_NaN()).size(), 1u);
 }
 
+TEST(OptionTable, UnknownNumbersStandWhereAnOptionTakesThem) {
+  double const unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(problems_of("hours", std::vector<double>{0.0, unknown}).empty());
+  EXPECT_TRUE(problems_of("hours", std::string("unknown")).empty());
+  EXPECT_TRUE(problems_of("hours", std::vector<std::string>{"unknown", "unknown"}).empty());
+  EXPECT_EQ(problems_of("hours", std::vector<std::string>{"unknown", "old"}).size(), 1u);
+  EXPECT_EQ(problems_of("watts", std::vector<double>{0.0, unknown}).size(), 1u);
+}
+
 TEST(OptionTable, DescribesEveryOption) {
   auto const descriptions = lamp_table().describe();
-  ASSERT_EQ(descriptions.size(), 4u);
+  ASSERT_EQ(descriptions.size(), 6u);
   EXPECT_EQ(descriptions[0].default_value, "0.5");
   EXPECT_EQ(descriptions[2].range, "white | warm");
+  EXPECT_EQ(descriptions[4].range, "numbers, \"unknown\"");
 }
 
 }  // namespace options_test

@@ -39,6 +39,22 @@ TEST(ArmKeys, ARowOfAnotherLengthOrOfAnotherGearIsRefused) {
             "motor 3 turns by 2 of its own joint 3, not by 1");
 }
 
+TEST(ArmKeys, TorquesOfMotorsAreThoseOfCoupledOnes) {
+  SerialChain chain;
+  chain.joints.resize(2);
+  RecordingOptions options;
+  std::vector<Problem> problems;
+  refuse_motor_torques({}, options, chain, problems);
+  EXPECT_TRUE(problems.empty());
+  options.torque_at = "motors";
+  refuse_motor_torques({}, options, chain, problems);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].key, "recording.torque_at");
+  chain.transmission = Eigen::MatrixXd::Identity(2, 2);
+  refuse_motor_torques({}, options, chain, problems);
+  EXPECT_EQ(problems.size(), 1u);
+}
+
 TEST(ArmKeys, ALawHasAJointAndAllOfItsShapesOrNone) {
   SerialChain chain;
   chain.joints.resize(3);

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/run/job_sections.hpp"
+
 namespace torquescope {
 namespace arm_payloads_test {
 
@@ -52,6 +54,26 @@ TEST(ArmPayloads, WithoutAnyNothingIsCarried) {
   EXPECT_TRUE(problems.empty());
   EXPECT_TRUE(plan.payloads.empty());
   EXPECT_EQ(plan.train, CarriedPayloads(3));
+}
+
+TEST(ArmPayloads, OfUnknownMassAreOnePayload) {
+  auto options = three_recordings();
+  std::vector<Problem> problems;
+  Job const job = parse_job("[recording]\npayload_kg = [0, \"unknown\", \"unknown\"]\n", "arm.toml");
+  options.payload_kg = read_options<RecordingOptions>(job, problems).payload_kg;
+  ASSERT_EQ(options.payload_kg.size(), 3u);
+  options.validate_payload_kg = {options.payload_kg[1]};
+  auto const plan = plan_payloads({}, options, false, problems);
+  EXPECT_TRUE(problems.empty());
+  ASSERT_EQ(plan.payloads.size(), 1u);
+  EXPECT_FALSE(plan.payloads[0].mass_kg.has_value());
+  EXPECT_EQ(plan.train, (CarriedPayloads{std::nullopt, 0, 0}));
+  EXPECT_EQ(plan.validate, CarriedPayloads{0});
+  options.payload_kg[0] = options.payload_kg[1];
+  EXPECT_THAT(problems_of(options, false), testing::ElementsAre(testing::HasSubstr("in every training recording")));
+  options.payload_kg[0] = 1.0;
+  options.payload_first_moments_kgm = {0.1, 0.0, 0.0, 0.0, 0.2, 0.0, 0.0, 0.0, 0.0};
+  EXPECT_THAT(problems_of(options, false), testing::ElementsAre(testing::HasSubstr("carries an unknown mass")));
 }
 
 TEST(ArmPayloads, AreRefusedWhereTheyCannotBe) {
