@@ -32,7 +32,7 @@ class ScratchFile {
 
 void read_segment(std::string_view bytes) {
   ScratchFile const file(bytes);
-  SegmentFile const segment(file.name());
+  SegmentFile segment(file.name());
   for (auto const& [label, index] : segment.estimators()) {
     for (std::size_t entry = 0; entry < index.entries.size(); ++entry) {
       RunPart const part = segment.read(label, entry);
