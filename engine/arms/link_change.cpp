@@ -91,6 +91,23 @@ VectorXd errors_of(std::vector<Grams> const& blocks, Index cut, GramUnknowns con
   return (left.array() / whole.array()).sqrt();
 }
 
+// [N] of a fit to all blocks, on these
+VectorXd own_errors_of(std::vector<Grams> const& blocks, Index cut, GramUnknowns const& unknowns) {
+  auto const joints = static_cast<Index>(blocks.front().size());
+  Grams whole = halves_of(blocks, cut, 0);
+  Grams const others = halves_of(blocks, cut, 1);
+  for (std::size_t k = 0; k < whole.size(); ++k) add_gram(whole[k], others[k]);
+  VectorXd const values = fitted(whole, unknowns);
+  VectorXd left = VectorXd::Zero(joints), of_torque = VectorXd::Constant(joints, 1e-300);
+  for (Index k = 0; k < 2 * joints; ++k) {
+    auto const& gram = whole[static_cast<std::size_t>(k)];
+    auto const count = static_cast<double>(gram.count);
+    left[k % joints] += count * square_of(gram, direction_of(unknowns, values, k));
+    of_torque[k % joints] += count * torque_square(gram);
+  }
+  return (left.array() / of_torque.array()).sqrt();
+}
+
 double score_of(VectorXd const& errors) { return errors.array().max(SetupFit::floor).log().sum(); }
 
 // the row from which the second set of links is the better one
@@ -145,7 +162,8 @@ std::optional<Found> change_in(ArmSamples const& samples, SerialChain const& cha
   for (Index cut = first_cut; cut <= scan_blocks - first_cut; ++cut) {
     VectorXd const before = errors_of(blocks, cut, frictions), after = errors_of(blocks, cut, links);
     double const gain = score_of(before) - score_of(after);
-    if (gain <= best.gain || !halves_one(before, after, numbers.least_error, numbers)) continue;
+    if (gain <= best.gain) continue;
+    if (!halves_one(before, own_errors_of(blocks, cut, frictions), after, numbers.least_error, numbers)) continue;
     best = {gain, {0.0, samples.time_s[n - 1], 0, before, after}};
     best_cut = cut;
   }

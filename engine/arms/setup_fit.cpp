@@ -87,6 +87,18 @@ void compare_with_file(SetupFit& fit, ArmRows const& rows, BaseParameters const&
   fit.file_score = fit.file_error.array().max(SetupFit::floor).log().sum();
 }
 
+VectorXd own_error(std::vector<JointGram> const (&sides)[2], GramUnknowns const& unknowns) {
+  std::vector<JointGram> whole = sides[0];
+  for (std::size_t j = 0; j < whole.size(); ++j) add_gram(whole[j], sides[1][j]);
+  VectorXd const values = fitted(whole, unknowns);
+  VectorXd errors(static_cast<Index>(whole.size()));
+  for (Index j = 0; j < errors.size(); ++j) {
+    auto const& gram = whole[static_cast<std::size_t>(j)];
+    errors[j] = std::sqrt(square_of(gram, direction_of(unknowns, values, j)) / std::max(torque_square(gram), 1e-300));
+  }
+  return errors;
+}
+
 }  // namespace
 
 SetupFit fit_of(ArmSamples const& samples, ArmSetup const& setup, BaseParameters const& base,
@@ -111,6 +123,7 @@ SetupFit fit_of(ArmSamples const& samples, ArmSetup const& setup, BaseParameters
     }
   }
   fit.error = (squares.array() / of_torque.array().max(1e-300)).sqrt();
+  fit.own_error = own_error(sides, unknowns);
   fit.score = fit.error.array().max(SetupFit::floor).log().sum();
   if (setup.chain.has_inertias()) compare_with_file(fit, rows, base, setup.chain, sides);
   return fit;

@@ -23,6 +23,7 @@ namespace torquescope {
 
 struct SetupFit {
   Eigen::VectorXd error;       // [N] held-out rms over rms of the torque
+  Eigen::VectorXd own_error;   // [N] the same of a fit to all blocks, on these: of a short recording it is far lower
   Eigen::VectorXd parameters;  // of the base
   Eigen::VectorXd file_error;  // [N] with the inertias of the robot file; empty: it has none
   Eigen::VectorXd file_scale;  // [N] factor of the torque by which each would agree best

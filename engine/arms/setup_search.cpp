@@ -200,7 +200,7 @@ class Search {
   }
 
   bool mends(Eigen::VectorXd const& before, Eigen::VectorXd const& after, double least_error) const {
-    return halves_one(before, after, least_error, numbers_);
+    return halves_one(before, before, after, least_error, numbers_);
   }
 
   std::vector<Trial> trials() const {
@@ -238,7 +238,7 @@ class Search {
     if (!is_in_question()) return {};
     std::vector<Trial> fitting, of_file;
     for (auto const& one : trials()) {
-      if (mends(fit_.error, one.fit.error, numbers_.least_error)) fitting.push_back(one);
+      if (halves_one(fit_.error, fit_.own_error, one.fit.error, numbers_.least_error, numbers_)) fitting.push_back(one);
       if (raises_none(fit_.error, one.fit.error, numbers_) && is_told_by_file(one.fit))
         of_file.push_back({one.change, one.fit, true});
     }
@@ -285,9 +285,9 @@ bool raises_none(Eigen::VectorXd const& before, Eigen::VectorXd const& after, Se
   return (in_bounds(after) <= numbers.worse * in_bounds(before)).all();
 }
 
-bool halves_one(Eigen::VectorXd const& before, Eigen::VectorXd const& after, double least_error,
-                SetupNumbers const& numbers) {
-  Eigen::ArrayXd const was = before.array().min(numbers.tells_nothing), is = after.array().max(SetupFit::floor);
+bool halves_one(Eigen::VectorXd const& before, Eigen::VectorXd const& own, Eigen::VectorXd const& after,
+                double least_error, SetupNumbers const& numbers) {
+  Eigen::ArrayXd const was = own.array().min(numbers.tells_nothing), is = after.array().max(SetupFit::floor);
   return raises_none(before, after, numbers) && (was > least_error && is < numbers.halves * was).any();
 }
 

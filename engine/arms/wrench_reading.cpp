@@ -30,7 +30,7 @@ WrenchFit fit_wrench(ArmSamples const& samples, SerialChain const& chain) {
   for (auto const& [reading, outside] : others) {
     Eigen::VectorXd const error = error_of(outside);
     // no error is too small to be halved: the readings are few, and no other mistake looks like one of them
-    if (!halves_one(fit.as_written, error, 0.0, {})) continue;
+    if (!halves_one(fit.as_written, fit.as_written, error, 0.0, {})) continue;
     if (fit.best != WrenchReading::as_written && !(error.sum() < fit.at_best.sum())) continue;
     fit.best = reading;
     fit.at_best = error;
