@@ -48,7 +48,7 @@ float64[] effort
 COMMANDS, FLOATS = "/joint_group_position_controller/commands", "std_msgs/msg/Float64MultiArray"
 CONTROL, PATH = "control_msgs/msg/JointTrajectoryControllerState", "trajectory_msgs/msg/JointTrajectory"
 POINT = "trajectory_msgs/JointTrajectoryPoint"
-LEAD = 0.01  # s that a command is ahead
+STIFFNESS = 20.0  # N m per rad
 JOB = """
 [experiment]
 name = "simulated"
@@ -74,10 +74,11 @@ class Motion:
     def __init__(self):
         self.stamps = BEGIN + STEP * np.arange(round(SECONDS * 1e9 / STEP))
         t = self.seconds = (self.stamps - BEGIN) * 1e-9
-        self.position, self.command = (np.column_stack([np.sin(2 * s) + 0.4 * np.sin(5 * s), np.cos(3 * s)])
-                                       for s in (t, t + LEAD))
+        self.position = np.column_stack([np.sin(2 * t) + 0.4 * np.sin(5 * t), np.cos(3 * t)])
         self.velocity = np.column_stack([2 * np.cos(2 * t) + 2 * np.cos(5 * t), -3 * np.sin(3 * t)])
         self.effort = 0.3 * self.velocity + 0.5 * np.tanh(self.velocity / 0.01)
+        # of a proportional controller: no later row of the position is equal to it
+        self.command = self.position + self.effort / STIFFNESS
 
 
 MOTION = Motion()

@@ -250,7 +250,7 @@ class Errors(unittest.TestCase):
 
     def test_check_tells_everything_before_a_run(self):
         lines = ts.check(MOTION, validate=UNSEEN, model=MODEL, filter=FILTER)
-        self.assertEqual([line.topic for line in lines[:3]], ["job", "recording", "unseen"])
+        self.assertEqual([line.topic for line in lines[:3]], ["job", "recording", "rows"])
         self.assertFalse([line for line in lines if line.level == "fault"])
 
 

@@ -125,6 +125,17 @@ class Reader(unittest.TestCase):
         self.assertGreater(masked.sum(), 10)
         np.testing.assert_array_equal(np.isnan(trace.before), masked)
 
+    def test_a_joint_prints_as_a_screen(self):
+        for kind in support.DIAGNOSES:
+            lines = str(joint(kind)).split("\n")
+            self.assertLessEqual(len(lines), 24, kind)
+            self.assertLessEqual(max(map(len, lines)), 100, kind)
+        text = str(joint("named"))
+        for words in ("<Joint 1", "named: stribeck, cogging>", "error in validation, rows with reversals: 12.1 -> 6.23 %",
+                      "stribeck_speed"):
+            self.assertIn(words, text)
+        self.assertRegex(repr(diagnosis("named")), "^<Diagnosis: named: Stribeck friction 0.35 N m")
+
     def test_the_records_agree_with_the_json_beside_them(self):
         found = diagnosis("named")
         told = json.loads(found.verdict_json)

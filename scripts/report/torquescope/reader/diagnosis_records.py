@@ -6,9 +6,15 @@ Units      SI; each record names its own. Shares are fractions of 1
 Unknown    numbers that were not measured are NaN, lists without entries empty
 """
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
+
+
+def _percents(before, after):
+    has_after = math.isfinite(after) and after != before
+    return f"{100 * before:.3g} -> {100 * after:.3g} %" if has_after else f"{100 * before:.3g} %"
 
 
 @dataclass
@@ -152,7 +158,7 @@ class Forward:
     encoder_step: float
 
 
-@dataclass
+@dataclass(repr=False)
 class Joint:
     joint: int
     name: str  # of its position column; "" unknown
@@ -213,6 +219,26 @@ class Joint:
     forward: list = field(default_factory=list)
     twin_energy: np.ndarray = field(default_factory=lambda: np.empty(0))
 
+    def __repr__(self):
+        names = ", ".join(effect.name for effect in self.effects)
+        called = f"{self.joint} ({self.name})" if self.name else str(self.joint)
+        return f"<Joint {called}: {self.verdict}{f': {names}' if names else ''}>"
+
+    def __str__(self):
+        """A screen: what was named, errors before and after, parameters before and after."""
+        lines = [repr(self)]
+        for where, kind in (("training", "train"), ("validation", "validation")):
+            for of, all_rows in ((f"rows {self.rows}", ""), ("all samples", "_all_rows")):
+                before, after = (getattr(self, f"{prefix}{kind}_relerr{all_rows}") for prefix in ("", "augmented_"))
+                if math.isfinite(before):
+                    lines.append(f"  error in {where}, {of}: {_percents(before, after)}")
+        for name, one in (self.augmented or self.baseline).items():
+            old = self.baseline.get(name)
+            was = f"   was {old.value:.4g}" if self.augmented and old else ""
+            lines.append(f"  {name:<22} {one.value:>10.4g} [{one.lower:.4g}, {one.upper:.4g}] {one.unit}{was}")
+        lines.append(f"  also: map ({len(self.map)} axes), candidates ({len(self.candidates)}), traces, advice")
+        return "\n".join(lines)
+
 
 @dataclass
 class WholeArm:
@@ -221,7 +247,7 @@ class WholeArm:
     candidates: list  # [Candidate] strongest first
 
 
-@dataclass
+@dataclass(repr=False)
 class Diagnosis:
     verdict: str  # "none", "named", "class", "partly", "unexplained", "insufficient", "data_fault"
     headline: str  # what is missing with its numbers, in one line; "" in files before 28 Nov 2026
@@ -233,3 +259,9 @@ class Diagnosis:
     verdict_json: str  # the document of diagnose --json
     joints: list
     arm: "WholeArm | None" = None  # of an arm
+
+    def __repr__(self):
+        return f"<Diagnosis: {self.verdict}: {self.headline or self.reason}>"
+
+    def __str__(self):
+        return "\n".join([repr(self), *map(str if len(self.joints) == 1 else repr, self.joints)])
