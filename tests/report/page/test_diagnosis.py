@@ -131,8 +131,8 @@ class Reader(unittest.TestCase):
             self.assertLessEqual(len(lines), 24, kind)
             self.assertLessEqual(max(map(len, lines)), 100, kind)
         text = str(joint("named"))
-        for words in ("<Joint 1", "named: stribeck, cogging>", "error in validation, rows with reversals: 12.1 -> 6.23 %",
-                      "stribeck_speed"):
+        for words in ("<Joint 1", "named: stribeck, cogging>", "stribeck_speed",
+                      "error in validation, rows with reversals: 12.1 -> 6.23 %"):
             self.assertIn(words, text)
         self.assertRegex(repr(diagnosis("named")), "^<Diagnosis: named: Stribeck friction 0.35 N m")
 
