@@ -74,38 +74,46 @@ Grams halves_of(std::vector<Grams> const& blocks, Index cut, Index parity) {
   return sums;
 }
 
-// [N] on held-out blocks
-VectorXd errors_of(std::vector<Grams> const& blocks, Index cut, GramUnknowns const& unknowns) {
-  auto const joints = static_cast<Index>(blocks.front().size());
-  VectorXd left = VectorXd::Zero(joints), whole = VectorXd::Constant(joints, 1e-300);
-  for (Index parity = 0; parity < 2; ++parity) {
-    VectorXd const values = fitted(halves_of(blocks, cut, parity), unknowns);
-    Grams const held_out = halves_of(blocks, cut, 1 - parity);
+// all blocks, before the cut and after it
+Grams whole_of(std::vector<Grams> const& blocks, Index cut) {
+  Grams sums = halves_of(blocks, cut, 0);
+  Grams const others = halves_of(blocks, cut, 1);
+  for (std::size_t k = 0; k < sums.size(); ++k) add_gram(sums[k], others[k]);
+  return sums;
+}
+
+// of each joint, before and after the cut together
+struct ErrorSums {
+  VectorXd left, whole;
+
+  explicit ErrorSums(Index joints) : left(VectorXd::Zero(joints)), whole(VectorXd::Constant(joints, 1e-300)) {}
+
+  void add(Grams const& grams, GramUnknowns const& unknowns, VectorXd const& values) {
+    Index const joints = left.size();
     for (Index k = 0; k < 2 * joints; ++k) {
-      auto const& gram = held_out[static_cast<std::size_t>(k)];
+      auto const& gram = grams[static_cast<std::size_t>(k)];
       auto const count = static_cast<double>(gram.count);
       left[k % joints] += count * square_of(gram, direction_of(unknowns, values, k));
       whole[k % joints] += count * torque_square(gram);
     }
   }
-  return (left.array() / whole.array()).sqrt();
+  VectorXd errors() const { return (left.array() / whole.array()).sqrt(); }
+};
+
+// [N] on held-out blocks
+VectorXd errors_of(std::vector<Grams> const& blocks, Index cut, GramUnknowns const& unknowns) {
+  ErrorSums sums(static_cast<Index>(blocks.front().size()));
+  for (Index parity = 0; parity < 2; ++parity)
+    sums.add(halves_of(blocks, cut, 1 - parity), unknowns, fitted(halves_of(blocks, cut, parity), unknowns));
+  return sums.errors();
 }
 
 // [N] of a fit to all blocks, on these
 VectorXd own_errors_of(std::vector<Grams> const& blocks, Index cut, GramUnknowns const& unknowns) {
-  auto const joints = static_cast<Index>(blocks.front().size());
-  Grams whole = halves_of(blocks, cut, 0);
-  Grams const others = halves_of(blocks, cut, 1);
-  for (std::size_t k = 0; k < whole.size(); ++k) add_gram(whole[k], others[k]);
-  VectorXd const values = fitted(whole, unknowns);
-  VectorXd left = VectorXd::Zero(joints), of_torque = VectorXd::Constant(joints, 1e-300);
-  for (Index k = 0; k < 2 * joints; ++k) {
-    auto const& gram = whole[static_cast<std::size_t>(k)];
-    auto const count = static_cast<double>(gram.count);
-    left[k % joints] += count * square_of(gram, direction_of(unknowns, values, k));
-    of_torque[k % joints] += count * torque_square(gram);
-  }
-  return (left.array() / of_torque.array()).sqrt();
+  ErrorSums sums(static_cast<Index>(blocks.front().size()));
+  Grams const whole = whole_of(blocks, cut);
+  sums.add(whole, unknowns, fitted(whole, unknowns));
+  return sums.errors();
 }
 
 double score_of(VectorXd const& errors) { return errors.array().max(SetupFit::floor).log().sum(); }
@@ -113,9 +121,7 @@ double score_of(VectorXd const& errors) { return errors.array().max(SetupFit::fl
 // the row from which the second set of links is the better one
 Index first_of_second(ArmRows const& rows, ArmSamples const& samples, std::vector<Grams> const& blocks, Index cut,
                       GramUnknowns const& unknowns) {
-  Grams sums = halves_of(blocks, cut, 0);
-  Grams const others = halves_of(blocks, cut, 1);
-  for (std::size_t k = 0; k < sums.size(); ++k) add_gram(sums[k], others[k]);
+  Grams const sums = whole_of(blocks, cut);
   VectorXd const values = fitted(sums, unknowns);
   auto const channels = joints_of(samples);
   Index const joints = samples.q.cols();
