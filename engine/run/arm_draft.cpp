@@ -11,11 +11,11 @@
 #include "engine/job/job.hpp"
 #include "engine/run/draft_notes.hpp"
 #include "engine/run/draft_text.hpp"
+#include "engine/run/experiment.hpp"
 #include "engine/run/foreign_file.hpp"
 #include "engine/run/recording_draft.hpp"
 #include "engine/run/recording_guess.hpp"
 #include "engine/run/robot_description.hpp"
-#include "engine/run/workflows.hpp"
 
 namespace torquescope {
 

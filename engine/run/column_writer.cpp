@@ -5,6 +5,7 @@
 #include "engine/run/diagnosis_input.hpp"
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/study_writer.hpp"
+#include "engine/run/workflows.hpp"
 #include "engine/store/scale_datasets.hpp"
 
 namespace torquescope {

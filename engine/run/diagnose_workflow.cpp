@@ -18,6 +18,7 @@
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/torque_findings.hpp"
 #include "engine/run/twin_folder.hpp"
+#include "engine/run/workflows.hpp"
 #include "engine/store/shard_lock.hpp"
 #include "engine/words/error_words.hpp"
 #include "engine/words/sentences.hpp"
@@ -224,7 +225,8 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
   ShardLock const lock(request.output, request.shard);
   std::optional<Shard> shard;
   if (request.shard.count > 1) shard.emplace(experiment, request, existed);
-  check_room(request, diagnosis_bytes(experiment.parts()));
+  check_room({request.output, request.allow_full_disk, request.tell, "[output] samples = false"},
+             diagnosis_bytes(experiment.parts()), request.output);
   TwinExchange* const exchange = shard ? &shard->twins() : nullptr;
   Stages stages(progress, request, experiment, lock);
   StageSink const sink = [&](std::string const& stage, std::size_t done, std::size_t total) {

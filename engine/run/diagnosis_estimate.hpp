@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/run/workflows.hpp"
+#include "engine/run/experiment.hpp"
 
 namespace torquescope {
 

@@ -16,8 +16,8 @@
 namespace torquescope {
 
 struct DiagnosisStanding {
-  std::string who;             // "process 4711 on node7"
-  bool is_alive = false;       // as LockWords
+  std::string who;                 // "process 4711 on node7"
+  bool is_alive = false;           // as LockWords
   std::string job, inputs_sha256;  // of the job's text and recordings
   std::int64_t shard = 0, shards = 1;
   std::string began, told;     // UTC

@@ -42,30 +42,6 @@ std::uintmax_t stored_bytes(Experiment::Parts const& parts, std::uintmax_t bytes
   return bytes_of_names + (parts.output.compression == "gzip" ? bytes / gzip_shrinks_to_less_than_a : bytes);
 }
 
-struct Wish {
-  std::filesystem::path const& output;
-  bool allow_full_disk;
-  std::function<void(std::string const& topic, std::string const& text)> const& tell;
-  std::string smaller;  // what else makes the result smaller
-};
-
-void check(Wish const& wish, std::uintmax_t needed, std::filesystem::path const& file) {
-  refuse_long_name(wish.output);
-  auto const free = free_bytes_for(wish.output);
-  if (!free || *free >= needed) return;
-  std::string const words = fmt::format("{} needs up to {} bytes, and {} are free there", file.string(), needed, *free);
-  if (wish.allow_full_disk) {
-    if (wish.tell) wish.tell("warning", words + ": --allow-full-disk");
-    return;
-  }
-  throw Error(Problem{.code = ExitCode::io,
-                      .what = words,
-                      .notes = {"nothing was begun"},
-                      .help = fmt::format("make room, --out another folder, {}, [output] compression = \"gzip\"; or "
-                                          "begin all the same with --allow-full-disk",
-                                          wish.smaller)});
-}
-
 }  // namespace
 
 std::uintmax_t result_bytes(Experiment::Parts const& parts) {
@@ -98,12 +74,25 @@ std::uintmax_t diagnosis_bytes(Experiment::Parts const& parts) {
   return stored_bytes(parts, all_sample_bytes(parts) + rows * numbers_of_a_trace * sizeof(double));
 }
 
-void check_room(IdentifyOptions const& options, std::uintmax_t needed, std::filesystem::path const& file) {
-  check({options.output, options.allow_full_disk, options.tell, "fewer runs or generations"}, needed, file);
+void check_room(RoomWish const& wish, std::uintmax_t needed, std::filesystem::path const& file) {
+  refuse_long_name(wish.output);
+  auto const free = free_bytes_for(wish.output);
+  if (!free || *free >= needed) return;
+  std::string const words = fmt::format("{} needs up to {} bytes, and {} are free there", file.string(), needed, *free);
+  if (wish.allow_full_disk) {
+    if (wish.tell) wish.tell("warning", words + ": --allow-full-disk");
+    return;
+  }
+  throw Error(Problem{.code = ExitCode::io,
+                      .what = words,
+                      .notes = {"nothing was begun"},
+                      .help = fmt::format("make room, --out another folder, {}, [output] compression = \"gzip\"; or "
+                                          "begin all the same with --allow-full-disk",
+                                          wish.smaller)});
 }
 
-void check_room(DiagnoseRequest const& request, std::uintmax_t needed) {
-  check({request.output, request.allow_full_disk, request.tell, "[output] samples = false"}, needed, request.output);
+void check_room(IdentifyOptions const& options, std::uintmax_t needed, std::filesystem::path const& file) {
+  check_room({options.output, options.allow_full_disk, options.tell, "fewer runs or generations"}, needed, file);
 }
 
 }  // namespace torquescope

@@ -8,8 +8,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "engine/run/experiment_parts.hpp"
+#include "engine/run/identify_options.hpp"
 
 namespace torquescope {
 
@@ -22,8 +25,16 @@ std::uintmax_t segment_bytes(Experiment::Parts const& parts, std::size_t runs);
 // of the result file of a diagnosis: its samples, and the traces of torque of the recordings that it draws
 std::uintmax_t diagnosis_bytes(Experiment::Parts const& parts);
 
+// what the caller wants to write, and what it would do about too little room
+struct RoomWish {
+  std::filesystem::path const& output;
+  bool allow_full_disk = false;
+  std::function<void(std::string const& topic, std::string const& text)> const& tell;
+  std::string smaller;  // what else makes the result smaller
+};
+
 // throws when fewer bytes are free beside the result; or tells it as a warning, when that is allowed
+void check_room(RoomWish const& wish, std::uintmax_t needed, std::filesystem::path const& file);
 void check_room(IdentifyOptions const& options, std::uintmax_t needed, std::filesystem::path const& file);
-void check_room(DiagnoseRequest const& request, std::uintmax_t needed);
 
 }  // namespace torquescope

@@ -31,8 +31,8 @@
 #include "engine/robot/robot_registry.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
+#include "engine/run/experiment.hpp"
 #include "engine/run/rollout_parts.hpp"
-#include "engine/run/workflows.hpp"
 
 namespace torquescope {
 

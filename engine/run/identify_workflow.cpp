@@ -22,6 +22,7 @@
 #include "engine/run/search_box.hpp"
 #include "engine/run/stage_progress.hpp"
 #include "engine/run/study_writer.hpp"
+#include "engine/run/workflows.hpp"
 #include "engine/store/shard_lock.hpp"
 
 namespace torquescope {

@@ -12,13 +12,13 @@
 #include "engine/run/column_remarks.hpp"
 #include "engine/run/draft_notes.hpp"
 #include "engine/run/draft_text.hpp"
+#include "engine/run/experiment.hpp"
 #include "engine/run/foreign_file.hpp"
 #include "engine/run/gravity_evidence.hpp"
 #include "engine/run/joint_choice.hpp"
 #include "engine/run/recording_draft.hpp"
 #include "engine/run/recording_guess.hpp"
 #include "engine/run/servo_draft.hpp"
-#include "engine/run/workflows.hpp"
 
 namespace torquescope {
 

@@ -16,6 +16,8 @@
 #include "engine/problem/squared_error_floor.hpp"
 #include "engine/run/earlier_result.hpp"
 #include "engine/run/experiment_parts.hpp"
+#include "engine/run/identify_options.hpp"
+#include "engine/run/progress_update.hpp"
 #include "engine/run/run_keeper.hpp"
 #include "engine/run/saved_runs.hpp"
 

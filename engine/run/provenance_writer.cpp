@@ -9,7 +9,7 @@
 
 #include "engine/base/version.hpp"
 #include "engine/run/code_identity.hpp"
-#include "engine/run/workflows.hpp"
+#include "engine/run/experiment.hpp"
 #include "engine/store/result_files.hpp"
 #include "engine/store/segment_folder.hpp"
 #include "engine/store/temp_file.hpp"

@@ -14,6 +14,7 @@
 #include "engine/base/error.hpp"
 #include "engine/run/disk_room.hpp"
 #include "engine/run/population_stage.hpp"
+#include "engine/run/workflows.hpp"
 #include "engine/store/shard_lock.hpp"
 
 namespace torquescope {

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <string>
 
-#include "engine/run/workflows.hpp"
+#include "engine/run/progress_update.hpp"
 
 namespace torquescope {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the commands do, without a word of terminal: load, check, identify, diagnose, simulate. The app layer prints.
+// What the commands do, without a word of terminal: identify, merge, diagnose, simulate, excite. The app layer prints.
 //
 // Errors     Error with the exit codes of error.hpp; every problem of a job at once
 // Threads    identify() spreads runs over threads itself; call it from one thread
@@ -7,90 +7,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/parallel.hpp"
-#include "engine/data/finding.hpp"
-#include "engine/data/recorded_tables.hpp"
 #include "engine/job/job.hpp"
+#include "engine/run/experiment.hpp"
+#include "engine/run/identify_options.hpp"
 #include "engine/run/progress_update.hpp"
 #include "engine/store/segment_folder.hpp"
 #include "engine/store/written_result.hpp"
 #include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
-
-// instruction set of the kernels on this machine: "AVX3", "AVX2", ...
-std::string vector_target();
-
-// one line of `torquescope check`
-struct CheckLine {
-  enum class Level { ok, note, warn, fault };
-  Level level = Level::ok;
-  std::string topic;  // "recording", "delay", "excitation"
-  std::string text;
-};
-
-// a job that was read, checked and turned into objects (recordings are read, nothing has run)
-class Experiment {
- public:
-  // what a job is loaded for decides what it must have: [[estimator]] to identify, nothing more to diagnose; to check
-  // it, [[estimator]] or [diagnose]; to replay it, neither
-  enum class Purpose { identify, diagnose, check, replay };
-  // Errors: 66, 65, 78 with everything that can be refused before starting
-  static Experiment load(std::filesystem::path const& job_file, Purpose purpose = Purpose::identify);
-  // of a text that need not be a file yet; a recording that it names is looked for in `tables` before any file is
-  static Experiment load(Job job, Purpose purpose, RecordedTables const& tables = {});
-  Experiment(Experiment&&) noexcept;
-  ~Experiment();
-
-  std::string const& name() const;
-  std::string job_line() const;                    // "crs_a465_joint: 1 joint, 4 parameters; ols, de, fade; 61 runs"
-  std::string diagnose_line() const;               // "lab_joint_3: 1 joint, 4 parameters; 34 effects, 200 twins"
-  std::string data_line() const;                   // "simulated, 2000 samples, 10 s at 200 Hz; cutoff 20 Hz"
-  std::vector<std::string> fitness_lines() const;  // per population method: "de from sufficient statistics (auto): ..."
-  std::uint64_t seed() const;
-  std::string inputs_sha256() const;  // of the job's text and every recording: two results of equal inputs are equal
-  std::filesystem::path output_file() const;  // [output] file, or NAME.h5 in the working folder
-  std::vector<CheckLine> check(int threads) const;
-  std::vector<std::string> warnings() const;  // one line each, printed by `run` before it starts
-  std::vector<std::string> remarks() const;   // the same of what is healthy
-  std::vector<Finding> findings() const;      // of the examination of every recording
-
-  struct Parts;
-  Parts const& parts() const { return *parts_; }
-  // what only people look at: once written, a fit does without
-  void forget_motion();
-  // once the floor of the squared errors is known
-  void forget_reductions();
-
- private:
-  std::string filter_warning() const;  // empty: the cut-offs go together
-  bool asks_for_values() const;        // of parameters; else the job asks for a verdict alone
-
-  explicit Experiment(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
-};
-
-struct IdentifyOptions {
-  ThreadChoice threads{};
-  std::filesystem::path output{};
-  std::function<bool()> stop_requested{};     // polled once a generation; true: what is done is saved, Error 75
-  std::function<std::string()> stop_words{};  // by what: "SIGTERM", "time budget (3600 s)"
-  std::function<void()> saving{};             // called before what is done is saved: by a stop, or by the result itself
-  std::function<void(std::string const& topic, std::string const& text)> tell{};  // "resume", "warning"
-  ShardChoice shard{};                                                            // of run_shard()
-  double segment_seconds = 20.0;                                                  // between two segments, at least
-  bool allow_mixed = false;           // go on from segments of another program, or another text of the job
-  bool allow_full_disk = false;       // begin although the result does not seem to fit
-  std::filesystem::path continued{};  // a result whose searches go on (earlier_result.hpp); empty: none
-  std::function<void(std::size_t, std::size_t)>
-      safe{};  // runs that a power cut cannot take any more, of all: after a segment
-  std::vector<std::filesystem::path> more_segments{};  // folders beside OUTPUT.parts: of merge
-};
 
 struct IdentifyReport {
   std::int64_t runs = 0;
