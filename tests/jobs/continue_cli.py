@@ -13,7 +13,7 @@ import h5py
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import program  # noqa: E402
-import run_cli  # noqa: E402
+import cli_folder  # noqa: E402
 import simulated_job  # noqa: E402
 
 
@@ -25,7 +25,7 @@ def searches(generations, **more):
 SHORT, LONG = simulated_job.job(searches(30)), simulated_job.job(searches(60))
 
 
-class Continue(run_cli.Folder):
+class Continue(cli_folder.Folder):
     def bytes_of(self, name):
         with open(os.path.join(self.folder, name), "rb") as file:
             return file.read()

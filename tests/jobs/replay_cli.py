@@ -17,7 +17,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
-import run_cli  # noqa: E402
+import cli_folder  # noqa: E402
 
 RATE_HZ, SECONDS = 500, 6
 TRUTH = {"inertia": 0.08, "viscous": 0.3, "coulomb": 0.4, "offset": 0.05}
@@ -58,7 +58,7 @@ def table(columns):
     return "{" + ", ".join(f'{key} = "{value}"' for key, value in columns.items()) + "}"
 
 
-class Replay(run_cli.Folder):
+class Replay(cli_folder.Folder):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
