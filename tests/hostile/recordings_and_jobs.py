@@ -3,7 +3,7 @@
 A recording: exit code 65 (66: not there, or not a file; 78: the job asks for what is not in it), never a signal, never
 more than seconds or a few hundred MiB. The files are made here; h5py and scipy come from Debian's Python.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/hostile/recordings_and_jobs.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/hostile/recordings_and_jobs.py
 """
 
 import gzip

@@ -5,7 +5,7 @@ A flip is either reported (exit code 65, with the place and the cure) or proved 
 was read and has the digests it had, so the bit lies in bytes that no object uses. Another exit code, a signal or
 another digest is a failure. What another program changes on purpose, checksums renewed, is reported too.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/hostile/verify_result.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/hostile/verify_result.py
 """
 
 import json

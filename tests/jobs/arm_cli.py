@@ -1,7 +1,7 @@
 """An arm of two joints from its file to its parameters: run, show, JSON, check, and what is refused.
 
 The recording comes from the Lagrangian of a planar arm, written out by hand: it shares no code with the engine.
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_cli.py
 """
 
 import json

@@ -1,6 +1,6 @@
 """What an arm's joints lack, on recordings of a planar arm whose Lagrangian is written out by hand (arm_cli.py).
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_diagnosis_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_diagnosis_cli.py
 """
 
 import json

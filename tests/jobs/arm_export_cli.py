@@ -1,6 +1,6 @@
 """A simulated arm identified, exported in every format far from its robot file, and read again: the same arm.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_export_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_export_cli.py
 """
 
 import json

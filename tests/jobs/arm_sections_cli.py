@@ -1,6 +1,6 @@
 """Friction of single joints and payloads of an arm's job: what a run makes of them, and what is refused, with place.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_sections_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_sections_cli.py
 """
 
 import json

@@ -1,6 +1,6 @@
 """A simulated arm from its file to its parameters: excite, simulate, run, and what is refused.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_simulation_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/arm_simulation_cli.py
 """
 
 import csv

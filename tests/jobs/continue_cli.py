@@ -1,6 +1,6 @@
 """run --continue: a search that ended goes on under a larger budget, or is refused with the way out.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/continue_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/continue_cli.py
 """
 
 import json

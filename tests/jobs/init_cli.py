@@ -1,7 +1,7 @@
 """A stranger with a CSV of one's own: init, check, diagnose, report in an empty folder; and files given to the wrong
 command.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/init_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/init_cli.py
 """
 
 import json

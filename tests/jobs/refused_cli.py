@@ -1,7 +1,7 @@
 """What the program refuses: bad jobs, files that are none, wrong command lines; with exit code, place and way out.
 
 Every bad/*.toml begins with what must happen:   # expect: 78 | words of the message | more words
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/refused_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/refused_cli.py
 """
 
 import json

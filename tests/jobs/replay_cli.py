@@ -1,7 +1,7 @@
 """replay, and fits by rollouts, end to end: a joint that was simulated here, by plain loops that share nothing with the
 engine, is found, replayed from job, run and diagnosis, on every sample; what cannot be simulated is refused.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/replay_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/replay_cli.py
 """
 
 import csv

@@ -1,6 +1,6 @@
 """Axes of result files: dimension scales as h5py sees them, and the plot that xarray makes of them by itself.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/result_axes.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/result_axes.py
 """
 
 import os

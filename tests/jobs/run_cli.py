@@ -1,6 +1,6 @@
 """The program as people and scripts meet it: tables, JSON, terminals, Ctrl-C, recordings that it simulates.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/run_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/run_cli.py
 """
 
 import json

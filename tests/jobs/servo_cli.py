@@ -3,7 +3,7 @@ their numbers, from any number of threads; what cannot be diagnosed is refused i
 
 Six of the 24 recordings are enough for that; `Shipped` takes jobs/servo_loads.toml as it is.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/servo_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/servo_cli.py
 """
 
 import csv

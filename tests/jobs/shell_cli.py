@@ -2,7 +2,7 @@
 
 Bash is asked for what it would offer. Zsh, fish, man and mandoc are where they are: without one, its test is skipped.
 
-Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/shell_cli.py
+Use: TORQUESCOPE=$PWD/build/dev/bin/torquescope /usr/bin/python3 tests/jobs/shell_cli.py
 """
 
 import functools
