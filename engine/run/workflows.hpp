@@ -49,7 +49,7 @@ class Experiment {
 
   std::string const& name() const;
   std::string job_line() const;                    // "crs_a465_joint: 1 joint, 4 parameters; ols, de, fade; 61 runs"
-  std::string diagnose_line() const;               // "lab_joint_3: 1 joint, 4 parameters; 34 effects, 200 twins"
+  std::string diagnose_line() const;               // "lab_joint_3: 1 joint, 4 parameters; 34 effects, 200 replicates"
   std::string data_line() const;                   // "simulated, 2000 samples, 10 s at 200 Hz; cutoff 20 Hz"
   std::vector<std::string> fitness_lines() const;  // per population method: "de from sufficient statistics (auto): ..."
   std::uint64_t seed() const;
@@ -151,10 +151,10 @@ struct DiagnoseRequest {
   double expected_seconds = 0.0;  // of the estimate, for progress; 0: none
 };
 
-// Finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify". With
-// several shards twins are exchanged in OUTPUT.parts (twin_folder.hpp), which goes when the result stands. Error 74
-// when there is no room for the result; 73 when a living process is at this shard; 75 too when another shard has
-// published the result
+// Finds the physics that the job's model lacks and writes the result file; stages "replicates", "search",
+// "verify". With several shards twins are exchanged in OUTPUT.parts (twin_folder.hpp), which goes when the result
+// stands. Error 74 when there is no room for the result; 73 when a living process is at this shard; 75 too when
+// another shard has published the result
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress);
 
 // writes the columns that every effect of the catalogue has on the job's recordings (column_export.hpp), for methods

@@ -165,7 +165,7 @@ std::string both_text(ErrorPair const& training, ErrorPair const& validation) {
 
 // "on rows that move one way, 65 % of training and 70 % of validation"
 std::string rows_phrase(JointDiagnosis const& joint) {
-  std::string text = joint.rows == "with reversals" ? "on rows in motion" : "on rows that move one way";
+  std::string text = joint.rows == ErrorRows::in_motion ? "on rows in motion" : "on rows that move one way";
   std::vector<std::string> shares;
   auto const share = [&](char const* of, LeftOut const& left_out) {
     if (std::isfinite(left_out.time)) shares.push_back(percent_text(1.0 - left_out.time) + of);
@@ -186,7 +186,7 @@ VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joi
   std::string const all = both_text(training_error(joint), validation_error(joint));
   std::string const of_rows = both_text({joint.train_relerr, joint.augmented_train_relerr},
                                         {joint.validation_relerr, joint.augmented_validation_relerr});
-  bool const are_all = joint.rows == "all" || (joint.train_left_out.time == 0.0 && all == of_rows);
+  bool const are_all = joint.rows == ErrorRows::all || (joint.train_left_out.time == 0.0 && all == of_rows);
   if (!all.empty()) lines.errors = "error, all samples: " + all;
   if (!are_all && !of_rows.empty()) lines.rows = fmt::format("error {}: {}", rows_phrase(joint), of_rows);
   add_noise(lines.rows.empty() ? lines.errors : lines.rows, joint.floor_relerr);

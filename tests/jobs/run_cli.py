@@ -368,7 +368,7 @@ class GoodRun(Folder):
             "coulomb_negative",
             "MSE",
             "error, train",
-            "error, unseen",
+            "error, validation",
             "gap to OLS, median of 3",
         ]:
             self.assertIn("\n  " + row, outcome.out)

@@ -58,7 +58,7 @@ std::string source_excerpt(Problem const& problem, Ink const& ink) {
   std::string const number = fmt::format("{}", place.line);
   std::string const gutter = spaces(columns_of(number)) + " | ";
   std::string line = printable(place.line_text);
-  int const room = page_width - columns_of(gutter);
+  int const room = page_width() - columns_of(gutter);
   int caret = std::clamp(place.column - 1, 0, columns_of(line));
   int length = std::clamp(place.length, 1, std::max(1, columns_of(line) - caret));
 

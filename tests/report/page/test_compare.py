@@ -75,7 +75,7 @@ class Compare(unittest.TestCase):
         self.assertEqual(facts["verdict"][:2], ["● Missing physics named", "○ Nothing missing"])
         self.assertTrue(facts["verdict"][2].startswith("identified"))
         named = support.study("named").diagnosis.joints[0]
-        self.assertIn(f"{100 * named.augmented_validation_relerr:.1f}"[:2], facts["error unseen"][0])
+        self.assertIn(f"{100 * named.augmented_validation_relerr:.1f}"[:2], facts["error, validation"][0])
         effects = {row[0]: row[1:] for row in self.cells(text, "Effects that one of them names")}
         self.assertRegex(effects["Stribeck friction"][0], "^◍ named or friction that builds up")
         self.assertTrue(effects["Stribeck friction"][1].startswith("○"))

@@ -185,7 +185,7 @@ class Verdict(unittest.TestCase):
             "Stribeck friction (p < 0.005; presliding cannot be excluded).",
             "cogging torque of the motor (p < 0.005).",
             "floor 6.0 %.",
-            "200 clean twins",
+            "200 simulated replicates",
         ):
             self.assertIn(words, evidence)
 
@@ -223,7 +223,7 @@ class Verdict(unittest.TestCase):
         self.assertEqual(words_of_diagnosis.big_numbers(whole),
                          [("20 → 15 %", "", "error in training, all samples"),
                           ("30 → 25 %", "", "error in validation, all samples"),
-                          ("0", "of 200", "clean twins look like this")])
+                          ("0", "of 200", "simulated replicates look like this")])
 
     def test_headlines_are_short(self):
         for kind in support.DIAGNOSES:
@@ -238,11 +238,11 @@ class Verdict(unittest.TestCase):
         )
         below = dataclasses.replace(at_floor, augmented_validation_relerr=0.041)
         self.assertIn(
-            ("about 4.9 %", "", "floor, as clean twins have it on average: the error is below"),
+            ("about 4.9 %", "", "floor, as replicates have it on average: the error is below"),
             words_of_diagnosis.big_numbers(below),
         )
         self.assertIn(
-            "4.1 % after, at the floor (about 4.9 %: what clean twins leave on average)",
+            "4.1 % after, at the floor (about 4.9 %: what replicates leave on average)",
             words_of_diagnosis.fit_answer(support.study("named"), below),
         )
         self.assertEqual(diagnosed.share_closed(at_floor), 1.0)

@@ -48,7 +48,7 @@ def a_minute_at_1_khz(file):
 
 
 def two_joints(file):
-    """The second has a recording of its own beside the first one's kind, and no unseen one."""
+    """The second has a recording of its own beside the first one's kind, and no validation recording."""
     found = file["diagnosis"]
     found.copy("joint_1", "joint_2")
     found.attrs["joints"] = np.int64(2)

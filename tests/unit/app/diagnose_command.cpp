@@ -114,8 +114,8 @@ TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
   EXPECT_THAT(outcome.out, HasSubstr("\nnext   "));
   EXPECT_THAT(outcome.out, Not(HasSubstr("wrote")));
   EXPECT_THAT(outcome.err, HasSubstr("4 parameters; "));
-  EXPECT_THAT(outcome.err, HasSubstr("baseline 4 parameters; error 11.8 % train, 12.1 % unseen\n"));
-  EXPECT_THAT(outcome.err, HasSubstr("\ntwins    400 twins, "));
+  EXPECT_THAT(outcome.err, HasSubstr("baseline 4 parameters; error 11.8 % train, 12.1 % validation\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("\ntwins    400 replicates, "));
   EXPECT_THAT(outcome.err, HasSubstr("\nsearch   34 effects, "));
   EXPECT_THAT(outcome.err, HasSubstr("\nwrote  "));
 }
@@ -187,7 +187,8 @@ TEST_F(DiagnoseCommand, SaysWhatIsLeftOutBesideTheErrors) {
   found.joints[0].validation_left_out = {0.71, 0.98, 0.46, 0.42};
   EXPECT_THAT(
       run({"--progress", "none"}).err,
-      HasSubstr("12.1 % unseen; 46.0 % over all rows,\n         of which 71.0 % with 98.0 % of the residual's energy"));
+      HasSubstr(
+          "12.1 % validation; 46.0 % over all rows,\n         of which 71.0 % with 98.0 % of the residual's energy"));
 }
 
 TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {
@@ -295,7 +296,7 @@ TEST_F(DiagnoseCommand, ShowsWhatExplainsAPartWithItsParametersAndErrors) {
   std::string const page = show().out;
   EXPECT_THAT(page, StartsWith(made.out));
   for (char const* words :
-       {"stribeck_speed", "error, unseen", "7.8 %", "explained, held-out rows", "71 % (60 to 79 %)"})
+       {"stribeck_speed", "error, validation", "7.8 %", "explained, held-out rows", "71 % (60 to 79 %)"})
     EXPECT_THAT(page, HasSubstr(words));
 }
 

@@ -115,7 +115,7 @@ TEST(DiagnosisText, NumbersStayWithWhatBelongsToThem) {
   Diagnosis diagnosis = example::invented_none();
   for (int words = 0; words < 40; ++words) {
     diagnosis.reason =
-        std::string(static_cast<std::size_t>(words), 'x') + " clean twins (p = 0.41) have 6.0 % (p < 0.005) left";
+        std::string(static_cast<std::size_t>(words), 'x') + " replicates (p = 0.41) have 6.0 % (p < 0.005) left";
     for (auto const& line : lines_of(evidence_text(diagnosis, everything, Ink()))) {
       EXPECT_THAT(line, Not(::testing::MatchesRegex(".*(p|p =|p <|6\\.0)"))) << line;
       EXPECT_THAT(line, Not(HasSubstr("\u00A0")));
@@ -184,7 +184,7 @@ TEST(DiagnosisText, WhatIsUnexplainedHasANextStepToo) {
 
 TEST(DiagnosisText, QuietAxesAreCountedAndUnrecordedPlacesAreBlank) {
   EXPECT_THAT(diagnosis_text(example::invented_none(), everything, Ink()),
-              HasSubstr("where  9 axes: nothing beyond the clean twins\n"));
+              HasSubstr("where  9 axes: nothing beyond the replicates\n"));
   Diagnosis diagnosis = example::invented_diagnosis();
   for (std::size_t i = 0; i < 27; ++i) diagnosis.joints[0].map[0].cells[i].samples = 0;
   EXPECT_THAT(diagnosis_text(diagnosis, everything, Ink()), HasSubstr("velocity  -1.1          "));

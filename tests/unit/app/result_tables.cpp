@@ -76,7 +76,7 @@ TEST(ResultTable, ShowsUnseenErrorsOnlyWhenThereIsUnseenData) {
   summary.has_validation = true;
   for (auto& each : summary.estimators) each.validation_relerr_median = 0.0733;
   EXPECT_THAT(result_table(summary, Ink()),
-              HasSubstr("  error, unseen     %                           7.33       7.33       7.33\n"));
+              HasSubstr("  error, validation     %                           7.33       7.33       7.33\n"));
 }
 
 TEST(ResultTable, OfManyEstimatorsBreaksIntoBlocksOf80Columns) {

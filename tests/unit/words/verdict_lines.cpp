@@ -26,7 +26,7 @@ JointDiagnosis joint_with(std::vector<NamedEffect> effects) {
   joint.effects = std::move(effects);
   joint.train_relerr = 0.05;
   joint.augmented_train_relerr = 0.01;
-  joint.rows = "all";
+  joint.rows = ErrorRows::all;
   return joint;
 }
 
@@ -54,7 +54,7 @@ TEST(VerdictLines, ShowThreeMembersOfAClassAtMost) {
 
 TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
   JointDiagnosis joint = joint_with({effect_of("stribeck", "Stribeck friction")});
-  joint.rows = "moving one way";
+  joint.rows = ErrorRows::one_way;
   joint.validation_relerr = 0.08;
   joint.augmented_validation_relerr = 0.02;
   joint.floor_relerr = 0.015;
@@ -65,13 +65,13 @@ TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
   EXPECT_EQ(lines.rows,
             "error on rows that move one way, 75.0 % of training and 65.0 % of validation: "
             "training 5.0 % -> 1.0 %, validation 8.0 % -> 2.0 %, noise 1.5 %");
-  joint.rows = "with reversals";
+  joint.rows = ErrorRows::in_motion;
   EXPECT_THAT(verdict_lines({}, joint, Verdict::named).rows, StartsWith("error on rows in motion, 75.0 %"));
 }
 
 TEST(VerdictLines, CallNoErrorOneOfAllSamplesThatIsNot) {
   JointDiagnosis joint = joint_with({});
-  joint.rows = "moving one way";
+  joint.rows = ErrorRows::one_way;
   joint.augmented_train_relerr = unknown;
   Diagnosis given_up;
   given_up.finding = "the joint stands still";
