@@ -98,12 +98,18 @@ class TableBlock {
   std::vector<int> widths_;
 };
 
+// of a column of numbers: a sign, four digits, an exponent and what parts it from its neighbour
+int cell_width(Column const& column) {
+  int const least = page_width() < widest_page ? 10 : 11;
+  return std::max(least, columns_of(column.title) + 2);
+}
+
 // as many columns as fit beside the names, at least one
 std::size_t fitting(std::vector<Column> const& columns, std::size_t begin, int room) {
   std::size_t count = 0;
   int used = 0;
   for (std::size_t c = begin; c < columns.size(); ++c, ++count) {
-    used += std::max(11, columns_of(columns[c].title) + 2);
+    used += cell_width(columns[c]);
     if (used > room && count > 0) break;
   }
   return count;
@@ -114,7 +120,7 @@ using Cells = std::vector<std::string>;
 std::string block_text(ResultSummary const& summary, std::vector<Column> const& columns, int name_width, int unit_width,
                        Ink const& ink) {
   std::vector<int> widths;
-  for (auto const& column : columns) widths.push_back(std::max(11, columns_of(column.title) + 2));
+  for (auto const& column : columns) widths.push_back(cell_width(column));
   TableBlock const block(name_width, unit_width, widths);
   auto const cells = [&](auto&& cell_of) {
     Cells row;

@@ -177,8 +177,8 @@ class Verdict(unittest.TestCase):
         verdict = words_of_diagnosis.verdict(support.study("named"))
         self.assertEqual(
             verdict["sentence"],
-            "Stribeck friction 0.35 N m [0.34, 0.37], stribeck_speed 0.060 rad/s [0.055, 0.065] | presliding; "
-            "cogging 0.060 N m [0.057, 0.062], cogging_order 12 1/rad [12, 12]   p < 0.005",
+            "Stribeck friction 0.35 N m [0.34, 0.37], speed 0.060 rad/s [0.055, 0.065] or presliding; "
+            "cogging 0.060 N m [0.057, 0.062], 12 a turn, p < 0.005",
         )
         evidence = verdict["evidence"].replace("\u00a0", " ")
         for words in (
@@ -322,7 +322,6 @@ class Verdict(unittest.TestCase):
         for kind in support.VERDICTS:
             self.assertEqual(re.findall(r"\bsignificant|\blikely|\bAI\b", read_by_a_person(kind)), [], kind)
 
-    @unittest.skipUnless(support.FULL, "a large page that no job makes yet: scripts/test --full")
     def test_two_joints_have_two_of_everything(self):
         text = support.page("two_joints").read_text(encoding="utf-8")
         self.assertEqual(text.count('id="mismatch_map_joint_'), 2)

@@ -38,10 +38,17 @@ TEST(VerdictLines, SayNumbersWithIntervalsAndShortTimesInMilliseconds) {
   Diagnosis const diagnosis;
   VerdictLines const lines = verdict_lines(diagnosis, joint_with({stribeck, late}), Verdict::named);
   EXPECT_EQ(lines.what,
-            "Stribeck friction 0.35 A [0.24, 0.46], stribeck_speed 0.080 rad/s [0.070, 0.090]; "
-            "delay 3.8 ms [3.1, 4.4]   p < 0.005");
+            "Stribeck friction 0.35 A [0.24, 0.46], speed 0.080 rad/s [0.070, 0.090]; "
+            "delay 3.8 ms [3.1, 4.4], p < 0.005");
   EXPECT_EQ(lines.errors, "error, all samples: training 5.0 % -> 1.0 %");
   EXPECT_EQ(lines.rows, "");
+}
+
+TEST(VerdictLines, CountWavesInATurnAndSayNoIntervalThatDigitsHide) {
+  NamedEffect cogging = effect_of("cogging", "cogging torque of the motor, fixed in the angle");
+  cogging.parameters = {{"cogging", "N m", 0.06, 0.057, 0.062}, {"cogging_order", "1/rad", 12.0, 11.999, 12.001}};
+  EXPECT_EQ(verdict_lines({}, joint_with({cogging}), Verdict::named).what,
+            "cogging 0.060 N m [0.057, 0.062], 12 a turn, p < 0.005");
 }
 
 TEST(VerdictLines, ShowThreeMembersOfAClassAtMost) {
@@ -49,7 +56,7 @@ TEST(VerdictLines, ShowThreeMembersOfAClassAtMost) {
   one.parameters = {{"cogging_cos", "N m", 0.1}};
   one.equivalent = {"torque_ripple", "transmission_error", "spring", "cable"};
   VerdictLines const lines = verdict_lines({}, joint_with({one}), Verdict::one_of_class);
-  EXPECT_THAT(lines.what, StartsWith("cogging 0.10 N m | torque ripple | transmission error | 2 more   p < 0.005"));
+  EXPECT_THAT(lines.what, StartsWith("cogging 0.10 N m or torque ripple or transmission error or 2 more, p < 0.005"));
 }
 
 TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
@@ -96,7 +103,7 @@ TEST(VerdictLines, NameThreeEffectsWithOneNumberEachAndCountTheRest) {
     four.back().parameters = {{name, "N m", 0.1}, {"shape", "rad", 2.0}};
   }
   EXPECT_EQ(verdict_lines({}, joint_with(four), Verdict::named).what,
-            "stribeck 0.10 N m; cogging 0.10 N m; spring 0.10 N m   p < 0.005; and 1 more");
+            "stribeck 0.10 N m; cogging 0.10 N m; spring 0.10 N m, p < 0.005; and 1 more");
 }
 
 TEST(VerdictLines, SayWhatWasDoneToAChannelAndThatAValidationIsOfAnotherKind) {
