@@ -66,7 +66,7 @@ def diagnose(recordings: Recordings | Path, *, validate: Recordings = (), model:
     sections    of a job: filter={"cutoff_hz": 40}, diagnose={"effects": ["stribeck", "cogging"]}
 
     Example     found = ts.diagnose(motion, validate=other, model={"terms": ["inertia", "viscous", "coulomb"]})
-                found.verdict, found.reason; found.diagnosis.joints[0].effects[0].parameters["stribeck"].value
+                found.verdict, found.reason, found.effects[0].parameters["stribeck"].value
     Units       SI of the joint: rad or m, s, N m or N; where the factor of a current is not known, the current's
     Shares      errors and shares are fractions of 1; intervals are 95 %; NaN: not measured
     Errors      JobError, DataError, UsageError, with every problem at once; Ctrl-C stops after the running step
@@ -84,7 +84,7 @@ def identify(recordings: Recordings | Path, *, validate: Recordings = (), model:
     estimators  names ("ols", "wls", "fade"), or {"name": "de", "runs": 20}
 
     Example     fit = ts.identify(motion, model={"terms": ["inertia", "viscous", "coulomb", "offset"]})
-                fit.estimators["ols"].parameters[0]     [R], in the order of fit.model.names
+                fit.parameters["inertia"].value, fit.parameters["inertia"].lower
     """
     order = _order(recordings, validate, model, estimators, sections)
     return _carry_out(order, False, out, threads, progress)

@@ -19,7 +19,8 @@ except ImportError:
 
 ALL = (support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS + support.COMPARED + support.REPLAYS
        + support.BESIDE + support.ROLLED + support.SERVOS)
-DRAWN = ("crs", "arm", "named", "unexplained", "minute", "two_joints", "board", "compared", "replayed", "rolled", "servo")
+DRAWN = ("crs", "arm", "named", "unexplained", "minute", "two_joints", "board", "compared", "replayed", "rolled",
+         "servo")
 KINDS = tuple(kind for kind in ALL if support.FULL or kind in DRAWN)
 FEWEST_FIGURES = {"arm": 6, "insufficient": 5, "board_few": 1, "compared": 1,
                   **{kind: 1 for kind in support.REPLAYS}, "servo_none": 1, "servo_ran_away": 0}

@@ -108,7 +108,7 @@ TEST(DiagnosisText, NoLineIsWiderThanThePage) {
     for (bool all : {false, true})
       for (auto const& line : lines_of(diagnosis_text(diagnosis, {.all_candidates = all}, Ink(true)) +
                                        diagnosed_model_text(diagnosis, Ink(true))))
-        EXPECT_LE(columns_of(line), page_width) << line;
+        EXPECT_LE(columns_of(line), widest_page) << line;
 }
 
 TEST(DiagnosisText, NumbersStayWithWhatBelongsToThem) {
