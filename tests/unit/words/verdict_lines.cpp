@@ -44,6 +44,12 @@ TEST(VerdictLines, SayNumbersWithIntervalsAndShortTimesInMilliseconds) {
   EXPECT_EQ(lines.rows, "");
 }
 
+TEST(ErrorRows, HaveTheWordsOfFilesAndOlderFilesTheFirst) {
+  for (ErrorRows const rows : {ErrorRows::one_way, ErrorRows::in_motion, ErrorRows::all})
+    EXPECT_EQ(error_rows_called(word(rows)), rows);
+  EXPECT_EQ(error_rows_called(""), ErrorRows::one_way);
+}
+
 TEST(VerdictLines, CountWavesInATurnAndSayNoIntervalThatDigitsHide) {
   NamedEffect cogging = effect_of("cogging", "cogging torque of the motor, fixed in the angle");
   cogging.parameters = {{"cogging", "N m", 0.06, 0.057, 0.062}, {"cogging_order", "1/rad", 12.0, 11.999, 12.001}};
