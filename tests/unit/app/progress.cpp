@@ -91,7 +91,7 @@ TEST(ProgressLines, ManyShortStagesGiveOneLineInTenSeconds) {
 
 TEST(ProgressBar, MovesWhileNothingIsCounted) {
   Watched watched(ProgressStyle::bar);
-  watched.printer({"twins", 0, 200, 0, 0, 0.0, "replicates"});
+  watched.printer({"replicates", 0, 200, 0, 0, 0.0, "replicates"});
   watched.printer.beat();  // too early: what was told still stands
   EXPECT_EQ(watched.text.size(), 1u);
   for (int k = 0; k < 4; ++k) {
@@ -148,7 +148,8 @@ TEST(ProgressBar, SaysTheTimeLeftOfAllStagesWhereItIsEstimated) {
 TEST(WaitingBar, FitsEveryWindow) {
   for (int width = 20; width <= 80; ++width)
     for (double seconds : {0.0, 1.3, 77.0, 5000.0})
-      EXPECT_LT(columns_of(waiting_bar({"twins", 0, 200, 0, 0, seconds, "replicates"}, 9000.0, width, true)), width);
+      EXPECT_LT(columns_of(waiting_bar({"replicates", 0, 200, 0, 0, seconds, "replicates"}, 9000.0, width, true)),
+                width);
 }
 
 TEST(SecondsLeft, AreUnknownInTheFirstTwoSeconds) {
@@ -189,8 +190,8 @@ TEST(ProgressBar, IsErasedWithoutEscapeSequences) {
 }
 
 TEST(ProgressBar, SaysWhatItCounts) {
-  ProgressUpdate now{"twins", 120, 200, 0, 0, 1.0};
-  now.counted = "twins";
+  ProgressUpdate now{"replicates", 120, 200, 0, 0, 1.0};
+  now.counted = "replicates";
   EXPECT_NE(progress_bar(now, 80, true).find("120/200 replicates"), std::string::npos);
   EXPECT_EQ(progress_line(now),
             "progress stage=replicates runs=120/200\n");  // a stage without evaluations has no such key
