@@ -61,7 +61,8 @@ std::vector<Column> columns_of_result(ResultSummary const& summary) {
                        is_floor || rolls_out ? "" : gap, rolls_out ? short_number(estimator.gap_median) : ""});
     // sixty lines of "name error, name error" are nobody's table
     if (summary.arm && !estimator.standard_error.empty())
-      columns.push_back({"std. error", [&](std::size_t i) { return short_error(estimator.standard_error.at(i)); }});
+      columns.push_back({page_width() < widest_page ? "std. err" : "std. error",
+                         [&](std::size_t i) { return short_error(estimator.standard_error.at(i)); }});
   }
   return columns;
 }
