@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <string_view>
 #include <utility>
 
 #include "engine/app/failure.hpp"
