@@ -112,10 +112,11 @@ class Page(browser.Browser):
         first, second = (one.text for one in self.browser.find_elements(By.CSS_SELECTOR, "section.joint"))
         self.assertIn("Joint 2\n● Missing physics named", first)
         self.assertIn("Joint 1\n○ Nothing missing", second)
-        pictures = "return [...document.querySelectorAll('[id^=mismatch_map]')].map((e) => e.offsetHeight > 0)"
-        self.assertEqual(self.script(pictures), [False, False])
+        opened = "return [...document.querySelectorAll('details.of-joint')].map((e) => e.open)"
+        self.assertEqual(self.script(opened), [False, False])
         self.browser.find_element(By.CSS_SELECTOR, "details.of-joint > summary").click()
-        self.assertEqual(self.script(pictures), [True, False])
+        self.assertEqual(self.script(opened), [True, False])
+        self.assertTrue(self.browser.find_element(By.ID, "mismatch_map_joint_2").is_displayed())
 
     @support.needs_diagnoses
     def test_measured_and_predicted_torque_stand_first(self):

@@ -12,7 +12,7 @@ VERDICTS = {
     "class": ("◍", "Missing physics: one of {count}", "blue"),
     "partly": ("◐", "Missing physics partly explained", "blue"),
     "none": ("○", "Nothing missing", "ink"),
-    "unexplained": ("◌", "Something else", "ochre"),
+    "unexplained": ("◌", "Unexplained: something else is missing", "ochre"),
     "insufficient": ("▽", "Recording too poor", "ochre"),
     "data_fault": ("✕", "Recording at fault", "ochre"),
 }

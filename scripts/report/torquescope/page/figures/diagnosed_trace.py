@@ -15,17 +15,16 @@ def draw(time, position, torque, before, after, floor, window, regions, effort, 
     one; floor: half height of the band of what noise alone leaves, 0 unknown; regions [k][2]: times between which the
     motion is inside a located region."""
     measured = traces.Line("measured", torque, style.LIGHT["measured"], thickness=4, label="measured")
+    when = {"before": " before", "after": " after"} if after is not None else {"before": ""}
     predicted = [traces.Line(f"measured-{part}", torque - values, style.LIGHT[colour], thickness=thickness,
-                             label=f"predicted {part}")
+                             label=f"predicted{when[part]}")
                  for part, values, colour, thickness in (("before", before, "baseline", 1.9),
                                                          ("after", after, "augmented", 1.2)) if values is not None]
     rows = [traces.Row(f"{effort} ({unit})", symbol, unit, [measured, *predicted], 170, *traces.scale(torque))]
     limit = 1.05 * float(np.nanmax(np.abs(before)))
-    for words, part, values, colour in (
-        ("residual before", "before", before, "baseline"),
-        ("residual after", "after", after, "augmented"),
-    ):
+    for part, values, colour in (("before", before, "baseline"), ("after", after, "augmented")):
         if values is not None:
+            words = f"residual{when[part]}"
             line = traces.Line(part, values, style.LIGHT[colour], thickness=1.1, label=words)
             rows.append(traces.Row(f"{words} ({unit})", symbol, unit, [line], 84, -limit, limit, floor))
     if position is not None:

@@ -182,7 +182,7 @@ def _legend(canvas, top, narrow):
     canvas.text(left - 8, top + 28, "spreads" if narrow else "spreads of the replicates", ha="right")
     # spectra have one side only: more than the twins
     left, top = (174, top + 38) if narrow else (938, top)
-    canvas.text(left - 8, top + 12, "spectra: beyond the replicates", ha="right")
+    canvas.text(left - 8, top + 12, "spectra: beyond" if narrow else "spectra: beyond the replicates", ha="right")
     _swatches(canvas, left, top + 1, [_colour(level, True) for level in range(5)], step)
     for k, limit in enumerate(limits, start=1):
         canvas.text(left + k * step, top + 28, limit, ha="center", fontsize=10.5)
