@@ -82,7 +82,7 @@ std::string HelpPage::make_help(CLI::App const* command, std::string name, CLI::
       table.row({shown_name(*option) + (is_flag ? "" : " " + option->get_type_name()), option->get_description()});
     }
   }
-  std::string const rows = table.text(page_width);
+  std::string const rows = table.text(page_width());
 
   // headings between the rows: a new row begins two spaces in, a continued one further right
   std::size_t next_group = 0;

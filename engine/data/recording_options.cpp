@@ -52,7 +52,7 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
         "of the motors on the joint side"},
        {"wrench", &Options::wrench,
         "of an arm: six columns, [\"fx\", \"fy\", \"fz\", \"mx\", \"my\", \"mz\"] in N and N m, of a sensor or "
-        "a force plate: a known torque of each joint, which is added to its own before any fit; laws of the gear's "
+        "a force plate: a known torque of each joint, which is added to its own before any fit; effects of the gear's "
         "load do not feel it"},
        {"wrench_frame",
         &Options::wrench_frame,

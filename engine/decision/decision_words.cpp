@@ -27,7 +27,7 @@ std::string clause(Refusal refusal) {
     case Refusal::chance:
       return "replicates of the model without it gain as much";
     case Refusal::smaller:
-      return "another law explains more";
+      return "another effect explains more";
     case Refusal::too_small:
       return "its torque, or what it brings on rows that no fit has seen, is too small";
     case Refusal::at_bound:

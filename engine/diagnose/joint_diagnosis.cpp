@@ -43,7 +43,8 @@ std::string without_reference_sentence(bool is_echo) {
   std::string const why = is_echo ? "The reference is the measured motion itself, in which no controller shows"
                                   : "No reference was recorded";
   return why +
-         ": twins follow the measured motion, and the torque's noise is read from what the model leaves, so that small "
+         ": replicates follow the measured motion, and the torque's noise is read from what the model leaves, so that "
+         "small "
          "effects hide; reversals are not looked at (reference = \"COLUMN\" in recording.columns: what was commanded).";
 }
 

@@ -74,7 +74,7 @@ void account_for_models(Selection const& selection, std::string const& timing, J
   joint.power_sentence = power_sentence(before);
 
   // parameters and errors
-  if (selection.final->pipeline->keeps_reversals()) joint.rows = "with reversals";
+  if (selection.final->pipeline->keeps_reversals()) joint.rows = ErrorRows::in_motion;
   joint.shape_evaluations = selection.evaluations;
   joint.baseline = estimate_parameters(before).baseline;
   joint.train_relerr = relative_error(before.comparison.recording);

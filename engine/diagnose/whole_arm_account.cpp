@@ -73,7 +73,7 @@ char const* clause_of(WholeArmReason reason) {
     case WholeArmReason::most_is_left:
       return "explains less than half of the mismatch of all joints";
     case WholeArmReason::unseen:
-      return "makes the error on unseen recordings larger";
+      return "makes the error on validation recordings larger";
   }
   return "";
 }

@@ -29,7 +29,7 @@ void GivenEffect::columns(EffectInput const& input, std::span<double const>, Eig
 }
 
 std::unique_ptr<EffectRunner> GivenEffect::runner(std::span<double const>, JointScales const&) const {
-  Problem problem{ExitCode::bad_job, "effect \"" + name() + "\" is a law of several joints"};
+  Problem problem{ExitCode::bad_job, "effect \"" + name() + "\" acts on several joints"};
   problem.help = "one joint alone cannot be simulated with it: leave it out";
   throw Error(problem);
 }

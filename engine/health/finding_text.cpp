@@ -144,7 +144,7 @@ std::string what(Finding const& f) {
       return fmt::format("{} never changes: {:g} in every row", column, f.size);
     case less_than_none:
       return fmt::format(
-          "least squares gives less than none of what cannot be negative: {}; {} may hold another "
+          "the fit makes negative what cannot be negative: {}; {} may hold another "
           "signal, another joint's torque, or come late",
           f.detail, column);
     case wrong_sign:

@@ -57,9 +57,9 @@ class Search {
   }
 
   void begin() {
-    tell("twins", 0, setting().twins);
+    tell("replicates", 0, setting().twins);
     auto first = first_stage();
-    tell("twins", setting().twins, setting().twins);
+    tell("replicates", setting().twins, setting().twins);
     validate(first.has_value(), [&] {
       Problem problem{ExitCode::bad_data, setting().recording.name + ": the fitted joint cannot follow the reference"};
       problem.help = "check recording.columns, units and torque_per_unit: the torque may be another signal";
@@ -186,7 +186,7 @@ class Search {
       if (!law.scan.is_testable || law.scan.p > levels_.alpha || !(law.scan.gain > 0.0)) continue;
       if (!law.scan.effect->is_wave() && selection.has_accepted(law.scan.effect)) continue;
       if (evidence.n_unseen() > 0 && law.unseen < law.least_unseen) {
-        selection.rejected.push_back({law.scan.effect, "predicts unseen recordings worse than without it"});
+        selection.rejected.push_back({law.scan.effect, "predicts validation recordings worse than without it"});
         continue;
       }
       found.push_back(&law);
@@ -219,9 +219,9 @@ class Search {
     if (!draft) return refuse(effect, "replicates with it do not follow the reference");
     if (energy_about_true_mean(*before) - energy_about_true_mean(*draft) < least_taken)
       return refuse(effect, "replicates with it leave as much as replicates without it");
-    tell("twins", 0, setting().twins);
+    tell("replicates", 0, setting().twins);
     auto whole = reweighed_stage(setting(), *draft);
-    tell("twins", setting().twins, setting().twins);
+    tell("replicates", setting().twins, setting().twins);
     if (!whole) return refuse(effect, "replicates with it do not follow the reference");
     if (is_far_too_large(*whole, before->reference().scales))
       return refuse(effect, "would have to be more than twice as large as it can be");

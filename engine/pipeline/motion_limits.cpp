@@ -60,8 +60,8 @@ std::string closed_sentences(MotionLimits const& limits, Excitation const& facts
   if (limits.has_one_direction)
     add("Only one direction of motion was recorded: Coulomb friction and offset are one number, and nothing is known "
         "of "
-        "laws that need reversals.");
-  if (limits.has_one_speed) add("Only one speed was recorded: nothing is known of laws of the velocity.");
+        "effects that need reversals.");
+  if (limits.has_one_speed) add("Only one speed was recorded: nothing is known of effects of the velocity.");
   if (limits.is_saturated)
     add(fmt::format("The torque sits at its limit {:.0f} % of the time; those rows are left out.",
                     100.0 * facts.torque_limit_share));
@@ -72,17 +72,17 @@ std::optional<Hopeless> blamed_for_silence(MotionLimits const& limits, Excitatio
   if (limits.has_no_relation)
     return Hopeless{
         Verdict::data_fault,
-        fmt::format("the model explains almost nothing of the torque (relerr {:.0f} %), and no known effect "
+        fmt::format("the model explains almost nothing of the torque (relative error {:.0f} %), and no known effect "
                     "explains what is left",
                     100.0 * relerr),
         "check recording.columns and torque_per_unit: the column may hold another signal or another joint"};
   if (limits.has_one_direction)
     return Hopeless{Verdict::insufficient,
                     "only one direction of motion was recorded: viscous, Coulomb friction and offset cannot be "
-                    "separated, and laws that need reversals cannot be seen",
+                    "separated, and effects that need reversals cannot be seen",
                     "record both directions over the same positions"};
   if (limits.has_one_speed)
-    return Hopeless{Verdict::insufficient, "only one speed was recorded: laws of velocity cannot be told apart",
+    return Hopeless{Verdict::insufficient, "only one speed was recorded: effects of the velocity cannot be told apart",
                     "record at least four speeds in both directions"};
   if (limits.is_saturated)
     return Hopeless{

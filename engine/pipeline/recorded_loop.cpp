@@ -172,7 +172,7 @@ RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint
   double const slow = slowest_velocity(recording, result.track.reference, result.loop.encoder_step, filter);
   result.loop.law = tracking_law(joint, bandwidth_hz, {recording.rate_hz, slow});
   result.loop.torque_noise = white(white_noise(recording.torque));
-  result.remark = "twins follow the measured motion in a stiff loop of our own";
+  result.remark = "replicates follow the measured motion in a stiff loop of our own";
   return result;
 }
 

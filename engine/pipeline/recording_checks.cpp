@@ -35,8 +35,8 @@ std::optional<Hopeless> check_silence(Excitation const& facts) {
   if (facts.one_speed_share < levels::mostly_one_speed) return std::nullopt;
   return Hopeless{
       Verdict::insufficient,
-      fmt::format("{:.0f} % of the moving time have one and the same speed: nothing else is missing, but laws of "
-                  "velocity cannot be told from viscous and Coulomb friction",
+      fmt::format("{:.0f} % of the moving time have one and the same speed: nothing else is missing, but effects of "
+                  "the velocity cannot be told from viscous and Coulomb friction",
                   100.0 * facts.one_speed_share),
       "record at least four speeds in both directions"};
 }
@@ -45,7 +45,7 @@ std::optional<Hopeless> check_sign(ProcessedRecord const& record) {
   double const work = record.motion.torque.dot(record.motion.dq);
   if (record.held.empty() || work >= 0.0) return std::nullopt;
   return Hopeless{Verdict::data_fault,
-                  "the torque takes work out of the joint, and the fitted " + record.held + " is less than none",
+                  "the torque takes work out of the joint, and the fitted " + record.held + " is negative",
                   "the torque column may have the wrong sign: check recording.columns and torque_per_unit"};
 }
 

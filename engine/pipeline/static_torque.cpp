@@ -34,7 +34,7 @@ std::optional<Hopeless> check_static_torque(ProcessedRecord const& record, Recor
   if (held_out_gain(held_out_blocks(without, with, memory)).change != HeldOutChange::not_lower) return std::nullopt;
   return Hopeless{
       Verdict::data_fault,
-      fmt::format("the torque is a function of the position alone (relerr {:.2g} %): inertia and friction of "
+      fmt::format("the torque is a function of the position alone (relative error {:.2g} %): inertia and friction of "
                   "a moving joint are not in it, so it is what a controller computed",
                   100.0 * relerr),
       "name the column of the measured torque or motor current in recording.columns"};

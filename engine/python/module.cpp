@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <string_view>
 #include <utility>
 
 #include "engine/app/failure.hpp"
@@ -125,6 +126,13 @@ std::vector<std::tuple<std::string, std::string, std::string>> check_job(JobSour
   return lines;
 }
 
+// the package writes the job of a call with arrays: its lines are no text of whoever called
+void forget_unwritten_places(std::vector<Problem>& problems) {
+  constexpr std::string_view unnamed_job = "<job>";  // scripts/report/torquescope/engine.py
+  for (auto& problem : problems)
+    if (problem.place.file == unnamed_job) problem.place = {};
+}
+
 void translate(std::exception_ptr const& thrown, void*) {
   std::vector<Problem> problems;
   try {
@@ -134,6 +142,7 @@ void translate(std::exception_ptr const& thrown, void*) {
   } catch (BrokenPromise const&) {
     problems = problems_of(thrown);
   }
+  forget_unwritten_places(problems);
   nb::object const error = nb::module_::import_("torquescope.errors")
                                .attr("from_engine")(error_text(problems, Ink(false)), error_json(problems));
   PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());

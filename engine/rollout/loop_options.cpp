@@ -61,7 +61,8 @@ OptionTable<LoopOptions> const& LoopOptions::table() {
   static OptionTable<Options> const table(
       "loop", "the controller that led the recordings, for rollouts",
       {{"controller", &Options::controller, loop_form_words(),
-        "identified: a linear law found in the recording; p_velocity: kv (kp e - dq); p_pi: kv s + ki (integral of s) "
+        "identified: a linear controller found in the recording; p_velocity: kv (kp e - dq); p_pi: kv s + ki (integral "
+        "of s) "
         "with s = kp e - dq; none: the recorded torque drives the joint"},
        {"drive", &Options::drive,
         "what the command of a servo is, in a job with [[recordings]]: voltage (with back-EMF), current, or position "
@@ -157,7 +158,8 @@ void check_loop(LoopOptions const& options, Section const& section, std::vector<
                                     fmt::format("write {} = ... as well", name)));
     if (form == LoopForm::identified && (*key == LoopKey::command_delay_s || *key == LoopKey::goal_speed_limit ||
                                          *key == LoopKey::goal_acceleration_limit))
-      problems.push_back(problem_at(section, "fit", fmt::format("fit: an identified law has no {} of its own", name),
+      problems.push_back(problem_at(section, "fit",
+                                    fmt::format("fit: an identified controller has no {} of its own", name),
                                     "name the controller: p, pi, pd, pid, p_velocity, p_pi"));
   }
   for (auto const& channel : options.channels)

@@ -97,7 +97,7 @@ Error ran_away(std::string const& recording) {
   problem.key = "estimator";
   problem.what = fmt::format("{}: the identified arm runs away from its reference when it is simulated", recording);
   problem.help =
-      "use wls: iv needs loops that a linear law describes, and an arm that is identified well enough to move";
+      "use wls: iv needs loops that a linear controller describes, and an arm that is identified well enough to move";
   return Error(problem);
 }
 

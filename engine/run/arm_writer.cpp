@@ -62,7 +62,7 @@ void write_laws(ResultWriter& writer, ArmModel const& model) {
     }
   if (names.empty()) return;
   writer.texts("/robot/shapes", names,
-               {"1", "shapes of the laws of [[model.effects]], with the number of their joint"});
+               {"1", "shapes of the effects of [[model.effects]], with the number of their joint"});
   writer.numbers("/robot/shape_values", {values.size()}, values, {"SI", "their values, refined in the fit"});
 }
 

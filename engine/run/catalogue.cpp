@@ -146,7 +146,8 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
       "noise); parallel_cutoff_hz half of that, never above it, or the torque keeps what the motion has lost; "
       "decimate_to_hz 2.5 to 4 "
       "times parallel_cutoff_hz, so that nothing folds back and rows are not all the same.",
-      "What lies above parallel_cutoff_hz nobody sees: raise both where backlash, elasticity or ripple is looked for. "
+      "What lies above parallel_cutoff_hz is filtered away: raise both where backlash, elasticity or ripple is looked "
+      "for. "
       "A lower one makes "
       "errors smaller, not the model better: compare errors at the same one only."};
   add_section<ModelOptions>(entries);
@@ -195,7 +196,7 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
   add_section<ExciteOptions>(entries);
   add_section<DiagnoseOptions>(entries);
   entries.back().text = {
-      "CV gain, in the table of candidates: share of the mismatch (what the residual has beyond the clean twins) that "
+      "CV gain, in the table of candidates: share of the mismatch (what the residual has beyond the replicates) that "
       "the "
       "effect predicts on blocks of time it was not fitted to. Above 100 % where the model alone predicts such blocks "
       "worse than nothing does; none where the effect predicts them no better.",

@@ -65,19 +65,19 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
       "diagnose", "what a diagnosis looks for and how sure it must be",
       {{"effects", &DiagnoseOptions::effects, "effects to look for: \"all\", or names (torquescope list effects)"},
        {"twins", &DiagnoseOptions::twins, "1", 60.0, 100000.0,
-        "clean twins that say what chance does; p-values reach down to 1 / (twins + 1)"},
+        "replicates: simulated recordings of the fitted model; no p is below 1 / (twins + 1)"},
        {"q", &DiagnoseOptions::q, "1", 1e-6, 0.5, "share of false names that is put up with among the names given"},
        {"max_effects", &DiagnoseOptions::max_effects, "1", 1.0, 20.0, "effects that are named at most"},
        {"delta", &DiagnoseOptions::delta, "1", 0.0, 1.0,
         "a model that leaves less than this share of the torque beyond chance is complete"},
        {"tolerance", &DiagnoseOptions::tolerance, "1", 0.0, 1.0,
-        "so much of its own torque the form of a named law may be off"},
+        "so much of its own torque the form of a named effect may be off"},
        {"least_fall", &DiagnoseOptions::least_fall, "1", 0.0, 1.0,
         "effects that lower the error on held-out rows by less than this share of it are not named"},
        {"shape_optimiser", &DiagnoseOptions::shape_optimiser, optimiser_names(),
         "what searches the shapes of an effect, its linear parameters solved inside (torquescope list optimisers)"},
        {"reversals", &DiagnoseOptions::reversals, reversal_words(),
-        "rows near reversals: left out, or weighed by what clean twins of unknown sticking laws show there; both: "
+        "rows near reversals: left out, or weighed by what replicates of unknown sticking friction show there; both: "
         "weighed "
         "where nothing is missing without them"},
        {"decider", &DiagnoseOptions::decider, decider_words(),
@@ -87,9 +87,9 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
        {"null", &DiagnoseOptions::null, null_words(),
         "ablation, not for use: what chance is taken for; all but \"twins\" invent effects on clean recordings"},
        {"indirect_inference", &DiagnoseOptions::indirect_inference,
-        "ablation, not for use: false makes twins of the least-squares baseline, biased as the pipeline makes it"},
+        "ablation, not for use: false makes replicates of the least-squares baseline, biased as the pipeline makes it"},
        {"twin_noise", &DiagnoseOptions::twin_noise, "1", 0.05, 20.0,
-        "ablation, not for use: factor on all noise of the twins, as if it were stated wrongly"},
+        "ablation, not for use: factor on all noise of the replicates, as if it were stated wrongly"},
        {"whitening", &DiagnoseOptions::whitening,
         "ablation, not for use: false lets all rows count alike, however much of them is noise of the encoder"}});
   return table;
@@ -115,7 +115,7 @@ void refuse_too_few_twins(DiagnoseOptions const& options, std::size_t joints, Se
   auto const fewest = static_cast<std::int64_t>(std::ceil(1.0 / level - 1e-9)) - 1;
   problems.push_back(problem_at(
       section, "twins",
-      fmt::format("{} clean twins cannot show a chance below {:.2g}, and a name needs {:.2g}{}: none could be given",
+      fmt::format("{} replicates cannot show a chance below {:.2g}, and a name needs {:.2g}{}: none could be given",
                   options.twins, 1.0 / static_cast<double>(options.twins + 1), level,
                   joints > 1 ? fmt::format(" (q over {} joints and the arm)", joints) : std::string()),
       fmt::format("write twins = {} or more", fewest)));
@@ -139,7 +139,7 @@ std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointK
     Effect const* effect = find_effect(name);
     Problem problem = refusal(name, effect, joint, model_terms, section);
     if (problem.what.empty() && effect->is_given() && joints == JointsOfJob::one)
-      problem = problem_at(section, "effects", fmt::format("effect \"{}\" is a law of the joints of an arm", name),
+      problem = problem_at(section, "effects", fmt::format("effect \"{}\" acts on the joints of an arm", name),
                            "name a robot file in [model], or remove it");
     if (problem.what.empty() && std::find(chosen.begin(), chosen.end(), effect) != chosen.end())
       problem = problem_at(section, "effects", fmt::format("effect \"{}\" stands twice", name), "remove one of them");

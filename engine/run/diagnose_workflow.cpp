@@ -67,7 +67,7 @@ class Stages {
   void tell_lock(std::string const& stage, std::size_t done, std::size_t total) {
     standing_.told = utc_now();
     standing_.stage = stage;
-    standing_.counted = stage.ends_with("twins") ? "clean twins" : "effects";
+    standing_.counted = stage.ends_with("replicates") ? "replicates" : "effects";
     standing_.done = static_cast<std::int64_t>(done);
     standing_.total = static_cast<std::int64_t>(total);
     standing_.seconds = seconds_since(began_);
@@ -115,12 +115,13 @@ class Shard {
 Error stopped(DiagnoseRequest const& request, Shard const* shard) {
   if (shard == nullptr) {
     Problem problem{ExitCode::stopped, "stopped: nothing was written"};
-    problem.help = "the same command begins anew; one with --shard 0/2 keeps its twins and goes on with them";
+    problem.help = "the same command begins anew; one with --shard 0/2 keeps its replicates and goes on with them";
     return Error(problem);
   }
   if (shard->is_finished())
     return Error(Problem{ExitCode::stopped, "another shard has finished " + request.output.string()});
-  Problem problem{ExitCode::stopped, "stopped: twins so far are safe in " + segment_folder_of(request.output).string()};
+  Problem problem{ExitCode::stopped,
+                  "stopped: replicates so far are safe in " + segment_folder_of(request.output).string()};
   problem.help = "the same command goes on with them";
   return Error(problem);
 }

@@ -66,7 +66,7 @@ DiagnosisEstimate estimate_diagnosis(DiagnosisSize const& size, int threads) {
 
 std::string estimate_words(DiagnosisSize const& size, DiagnosisEstimate const& estimate) {
   std::string const joints = size.joints > 1.0 ? fmt::format(" x {:.0f} joints", size.joints) : "";
-  return fmt::format("{} rows x {:.0f} clean twins{}: about {} and {} of memory for one effect", rough_count(size.rows),
+  return fmt::format("{} rows x {:.0f} replicates{}: about {} and {} of memory for one effect", rough_count(size.rows),
                      size.replicates, joints, rough_seconds(estimate.seconds), rough_bytes(estimate.bytes));
 }
 

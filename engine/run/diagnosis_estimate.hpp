@@ -30,7 +30,7 @@ struct DiagnosisEstimate {
 };
 DiagnosisEstimate estimate_diagnosis(DiagnosisSize const& size, int threads);
 
-// "100 000 rows x 200 clean twins: about 3 min and 1.1 GB"
+// "100 000 rows x 200 replicates: about 3 min and 1.1 GB"
 std::string estimate_words(DiagnosisSize const& size, DiagnosisEstimate const& estimate);
 
 // for a recording of many rows that can do with fewer: "decimate_to_hz = 50 in [filter] keeps 10 000 of the rows (about

@@ -187,7 +187,7 @@ void read_joint_attributes(StoredObjects const& in, std::string const& group, Jo
   joint.budget = {in.number(group, "budget_parameter_error"), in.number(group, "budget_missing_physics"),
                   in.number(group, "budget_unexplained"), in.number(group, "budget_noise")};
   joint.nuisances = in.texts(group, "nuisances");
-  joint.rows = in.text(group, "rows");
+  joint.rows = error_rows_called(in.text(group, "rows"));
   joint.loop_source = in.text(group, "loop_source");
   joint.loop_remark = in.text(group, "loop_remark");
   joint.torque_noise = in.number(group, "torque_noise");

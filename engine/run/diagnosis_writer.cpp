@@ -61,9 +61,9 @@ void write_map_axis(ResultWriter& writer, std::string const& map, MapAxis const&
       .numbers("to", [](C const& c) { return c.to; }, {axis.unit, "upper end of the cell"})
       .numbers("centre", [](C const& c) { return 0.5 * (c.from + c.to); }, {axis.unit, "middle of the cell"})
       .numbers("mean_residual", [](C const& c) { return c.mean_residual; }, {torque, "mean residual"})
-      .numbers("twin_mean", [](C const& c) { return c.twin_mean; }, {torque, "mean residual of the clean twins"})
-      .numbers("twin_std", [](C const& c) { return c.twin_std; }, {torque, "spread of one clean twin's mean residual"})
-      .numbers("z", [](C const& c) { return c.z; }, {"1", "mean residual beyond the twins, in their spread"})
+      .numbers("twin_mean", [](C const& c) { return c.twin_mean; }, {torque, "mean residual of the replicates"})
+      .numbers("twin_std", [](C const& c) { return c.twin_std; }, {torque, "spread of one replicate's mean residual"})
+      .numbers("z", [](C const& c) { return c.z; }, {"1", "mean residual beyond the replicates, in their spread"})
       .numbers("after_residual", [](C const& c) { return c.after_residual; },
                {torque, "mean residual with everything named in the model"})
       .numbers("after_z", [](C const& c) { return c.after_z; }, {"1", "z with everything named in the model"});
@@ -76,7 +76,7 @@ void write_map_axis(ResultWriter& writer, std::string const& map, MapAxis const&
       .numbers("time_share", [](R const& r) { return r.time_share; }, {"1", "share of the rows"})
       .numbers("energy_share", [](R const& r) { return r.energy_share; }, {"1", "share of the residual's energy"})
       .numbers("repeatable_share", [](R const& r) { return r.repeatable_share; },
-               {"1", "share of the region's energy that clean twins never show"});
+               {"1", "share of the region's energy that replicates never show"});
 }
 
 void write_candidates(ResultWriter& writer, std::string const& group, std::vector<Candidate> const& candidates) {
@@ -92,13 +92,13 @@ void write_candidates(ResultWriter& writer, std::string const& group, std::vecto
           "decisions", [](C const& c) { return word(c.decision); }, "named, class, measurement, no, not tested")
       .texts(
           "reasons", [](C const& c) { return c.reason; }, "why this decision")
-      .numbers("z", [](C const& c) { return c.z; }, {"1", "strength among the clean twins"})
-      .numbers("p", [](C const& c) { return c.p; }, {"1", "p-value from the clean twins"})
+      .numbers("z", [](C const& c) { return c.z; }, {"1", "strength among the replicates"})
+      .numbers("p", [](C const& c) { return c.p; }, {"1", "p-value from the replicates"})
       .numbers("q", [](C const& c) { return c.q; }, {"1", "false-discovery level"})
       .numbers("gain", [](C const& c) { return c.gain; }, {"1", "share of the mismatch explained"})
       .numbers("cv_gain", [](C const& c) { return c.cv_gain; },
                {"1", "of the mismatch on blocks of time that nothing was fitted to"})
-      .numbers("chance_z", [](C const& c) { return c.chance_z; }, {"1", "z that 95 % of the clean twins stay below"});
+      .numbers("chance_z", [](C const& c) { return c.chance_z; }, {"1", "z that 95 % of the replicates stay below"});
 }
 
 void write_curve(ResultWriter& writer, std::string const& group, EffectCurve const& curve, std::string const& torque) {
@@ -111,7 +111,7 @@ void write_curve(ResultWriter& writer, std::string const& group, EffectCurve con
   };
   column("partial", curve.partial, "effect and what is left, mean");
   column("modelled", curve.modelled, "effect as modelled, mean");
-  column("spread", curve.spread, "spread of one clean twin's mean");
+  column("spread", curve.spread, "spread of one replicate's mean");
   writer.plottable(group, "partial", {"at"});
 }
 
@@ -230,7 +230,7 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "budget_unexplained", joint.budget.unexplained);
   writer.attribute(group, "budget_noise", joint.budget.noise);
   text_list(writer, group, "nuisances", joint.nuisances);
-  writer.attribute(group, "rows", joint.rows);
+  writer.attribute(group, "rows", word(joint.rows));
   writer.attribute(group, "loop_source", joint.loop_source);
   writer.attribute(group, "loop_remark", joint.loop_remark);
   writer.attribute(group, "torque_noise", joint.torque_noise);
@@ -265,7 +265,7 @@ void write_joint(ResultWriter& writer, std::string const& group, JointDiagnosis 
   write_lists(writer, group, joint);
   if (joint.twin_energy.empty()) return;
   writer.numbers(group + "/twin_energy", {joint.twin_energy.size()}, joint.twin_energy,
-                 Note{"1", "residual energy of each clean twin over that of the recording"}.over({"twin"}));
+                 Note{"1", "residual energy of each replicate over that of the recording"}.over({"twin"}));
   write_index(writer, group, "twin", joint.twin_energy.size());
 }
 

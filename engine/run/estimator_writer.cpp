@@ -136,7 +136,7 @@ void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults c
   metric("residual_mean", &PredictionMetrics::residual_mean, {torque_unit, "mean residual"});
   if (!results.validate.empty())
     write_per_run(writer, group + "/validation_relerr", RunResults::each(results.validate, &PredictionMetrics::relerr),
-                  {"1", "relative error on unseen data"});
+                  {"1", "relative error on validation data"});
   Note const gap{squared(torque_unit), "MSE above the least-squares floor"}, fitness{"1", "fitness of the rollouts"};
   write_per_run(writer, group + "/gap", results.gap, plan.rolls_out() ? fitness : gap);
   writer.texts(group + "/stop_reason", results.stop_reason, Note{"1", "why each run ended"}.over({"run"}));

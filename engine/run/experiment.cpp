@@ -143,7 +143,7 @@ FitnessChoice fitness_choice(Experiment::Parts const& parts, EstimatorPlan const
 std::string Experiment::diagnose_line() const {
   return fmt::format("{}: {}, {}; {}, {}", name(), counted(parts_->joints(), "joint"),
                      counted(parts_->parameters(), "parameter"), counted(parts_->effects.size(), "effect"),
-                     counted(static_cast<std::size_t>(parts_->diagnose.twins), "clean twin"));
+                     counted(static_cast<std::size_t>(parts_->diagnose.twins), "replicate"));
 }
 
 std::string Experiment::data_line() const {
@@ -152,7 +152,7 @@ std::string Experiment::data_line() const {
   line += fmt::format(", {} samples, {:.4g} s at {:.6g} Hz", samples_of(parts_->train), seconds_of(parts_->train),
                       recordings.front().rate_hz);
   if (parts_->filter.cutoff_hz > 0.0) line += fmt::format("; cutoff {:.4g} Hz", parts_->filter.cutoff_hz);
-  if (parts_->validate) line += fmt::format("; unseen {:.4g} s", seconds_of(*parts_->validate));
+  if (parts_->validate) line += fmt::format("; validation {:.4g} s", seconds_of(*parts_->validate));
   return line;
 }
 
@@ -316,7 +316,7 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   if (parts_->job.find("diagnose") != nullptr)
     lines.push_back({Level::ok, "diagnosis",
                      fmt::format("{}, {}", counted(parts_->effects.size(), "effect"),
-                                 counted(static_cast<std::size_t>(parts_->diagnose.twins), "clean twin"))});
+                                 counted(static_cast<std::size_t>(parts_->diagnose.twins), "replicate"))});
   if (parts_->job.find("diagnose") != nullptr || parts_->estimators.empty()) {
     auto const size = diagnosis_size(*parts_);
     lines.push_back({Level::ok, "diagnosis", estimate_words(size, estimate_diagnosis(size, threads))});

@@ -42,7 +42,7 @@ class Experiment {
 
   std::string const& name() const;
   std::string job_line() const;                    // "crs_a465_joint: 1 joint, 4 parameters; ols, de, fade; 61 runs"
-  std::string diagnose_line() const;               // "lab_joint_3: 1 joint, 4 parameters; 34 effects, 200 twins"
+  std::string diagnose_line() const;               // "lab_joint_3: 1 joint, 4 parameters; 34 effects, 200 replicates"
   std::string data_line() const;                   // "simulated, 2000 samples, 10 s at 200 Hz; cutoff 20 Hz"
   std::vector<std::string> fitness_lines() const;  // per population method: "de from sufficient statistics (auto): ..."
   std::uint64_t seed() const;

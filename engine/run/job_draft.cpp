@@ -156,7 +156,7 @@ class JobDrafter {
     text_.setting("name", "\"ols\"", "of torquescope run: least squares");
     text_.section("[diagnose]");
     text_.setting("effects", "\"all\"", "look for everything in the catalogue (torquescope list effects)");
-    text_.setting("twins", "200", "clean simulated recordings that say what chance does");
+    text_.setting("twins", "200", "replicates: simulated recordings that say what chance does");
   }
 
   RecordingGuess const& train_;

@@ -269,7 +269,7 @@ std::string json_file(Diagnosis const& diagnosis) {
 
 std::vector<ModelWriter> const& model_writers() {
   static std::vector<ModelWriter> const writers{{"c", "C functions of a diagnosis' joints", c_file},
-                                                {"json", "parameters and laws of a diagnosis' joints", json_file},
+                                                {"json", "parameters and effects of a diagnosis' joints", json_file},
                                                 {"mjcf", "friction of a diagnosis' joints", mjcf_file}};
   return writers;
 }

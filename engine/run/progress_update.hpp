@@ -13,7 +13,7 @@ struct ProgressUpdate {
   std::int64_t runs_done = 0, runs_total = 0;
   std::int64_t evaluations_done = 0, evaluations_total = 0;
   double seconds = 0.0;           // since the stage began
-  std::string counted = "runs";   // what is counted as runs: "twins", "effects"
+  std::string counted = "runs";   // what is counted as runs: "replicates", "effects"
   double expected_seconds = 0.0;  // of all stages together, as estimated before they began; 0: nobody did
 };
 using ProgressSink = std::function<void(ProgressUpdate const&)>;

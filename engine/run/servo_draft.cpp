@@ -95,7 +95,7 @@ class ServoDrafter {
       text_.section("[[recordings]]");
       text_.setting("files", toml_text(section.files),
                     fmt::format("{} {}{}", section.n_files, files_word(section.n_files),
-                                section.is_validation ? ": by which laws are chosen; no fit sees them" : ""));
+                                section.is_validation ? ": effects are chosen by these; no fit uses them" : ""));
       if (section.is_validation) text_.setting("role", "\"validate\"");
       for (auto const& [name, value] : section.fixed) {
         double number = 0.0;

@@ -28,9 +28,9 @@ Problem unknown_law(std::string const& name, Regressor const& regressor, Section
   bool const is_effect = find_effect(name) != nullptr;
   std::string const what =
       is_effect ? fmt::format("effect \"{}\" is in the model already, or no simulation of a servo can hold it", name)
-                : fmt::format("unknown law \"{}\"", name);
+                : fmt::format("unknown effect \"{}\"", name);
   Problem problem = problem_at(section, "effects", what,
-                               "effects = \"all\" asks for every law of drive and gear (torquescope list laws)");
+                               "effects = \"all\" asks for every effect of drive and gear (torquescope list laws)");
   std::string const close = is_effect ? std::string() : closest_name(name, names_of_laws(regressor));
   if (!close.empty()) problem.caret_note = fmt::format("did you mean \"{}\"?", close);
   return problem;
@@ -51,7 +51,7 @@ ServoLaws servo_laws(DiagnoseOptions const& options, Regressor const& regressor,
     bool const is_told = std::count(options.effects.begin(), options.effects.end(), name) > 1;
     if (is_told)
       problems.push_back(
-          problem_at(section, "effects", fmt::format("law \"{}\" stands twice", name), "remove one of them"));
+          problem_at(section, "effects", fmt::format("effect \"{}\" stands twice", name), "remove one of them"));
     else if (of_drive != nullptr)
       laws.of_drive.push_back(of_drive);
     else if (effect != nullptr && can_be_simulated(*effect, regressor))

@@ -39,7 +39,7 @@ std::string sentence_of(ServoRemark const& remark) {
       return "No load is known: every torque is in units of the command, and only ratios are told. A known mass "
              "([known] gravity_moment) fixes the scale.";
     case ServoNote::no_validation:
-      return "No recording has role = \"validate\": laws are judged on the recordings that they were fitted to.";
+      return "No recording has role = \"validate\": effects are judged on the recordings that they were fitted to.";
     case ServoNote::no_gain:
       return "No [known] command_gain: the command is the error of the position itself, and no limit of the drive is "
              "known.";
@@ -53,7 +53,7 @@ std::string sentence_of(ServoRemark const& remark) {
     case ServoNote::few_recordings:
       break;
   }
-  return "One recording of training: laws of load, gain and motion cannot be told apart in it.";
+  return "One recording of training: effects of load, gain and motion cannot be told apart in it.";
 }
 
 std::string name_of_number(LoopNumber const& number) {
@@ -87,7 +87,7 @@ std::string headline(ServoReport const& report) {
     case Verdict::partly:
       return "partly explained by " + names;
     case Verdict::unexplained:
-      return "unexplained: the simulation misses the recordings, and no law of drive or gear mends it";
+      return "unexplained: the simulation misses the recordings, and no effect of drive or gear mends it";
     default:
       break;
   }

@@ -73,7 +73,7 @@ void TwinFolder::warn(std::string const& text) const {
 }
 
 std::string TwinFolder::account() const {
-  return fmt::format("{} of {} parts of the twins were simulated here", made_, made_ + taken_);
+  return fmt::format("{} of {} parts of the replicates were simulated here", made_, made_ + taken_);
 }
 
 // what everybody else need not compute, were they two; the same answer in every process
@@ -148,11 +148,11 @@ bool TwinFolder::take(TwinBatch const& batch, Part& part) {
   if (!folder_.is_open()) return false;
   NumberFile const found = read_number_file(folder_.place(part.file.filename().string()), part.key, numbers_);
   if (found == NumberFile::damaged) {
-    warn(fmt::format("{} is damaged; its twins are simulated again", part.file.string()));
+    warn(fmt::format("{} is damaged; its replicates are simulated again", part.file.string()));
     folder_.unlink(part.file.filename().string());
   }
   if (found == NumberFile::foreign && !std::exchange(part.is_foreign, true))
-    warn(fmt::format("{} is no part of this diagnosis: it stays as it is, and its twins are not shared",
+    warn(fmt::format("{} is no part of this diagnosis: it stays as it is, and its replicates are not shared",
                      part.file.string()));
   if (found != NumberFile::whole) return false;
   for (std::size_t i = 0; i < part.range.size(); ++i)
@@ -185,12 +185,12 @@ void TwinFolder::publish(TwinBatch const& batch, Part const& part) {
     batch.get(part.range.from + i, std::span(numbers_).subspan(i * batch.numbers, batch.numbers));
   auto const free = free_bytes_for(part.file);
   publishes_ = !free || *free >= setting_.bytes_kept_free + number_file_bytes(numbers_.size());
-  if (!publishes_) return warn("there is little room on the disk: twins are no longer shared");
+  if (!publishes_) return warn("there is little room on the disk: replicates are no longer shared");
   try {
     write_number_file(folder_.place(part.file.filename().string()), part.key, numbers_);
   } catch (Error const& error) {
     publishes_ = false;
-    warn(error.problems().front().what + "; twins are no longer shared");
+    warn(error.problems().front().what + "; replicates are no longer shared");
   }
 }
 

@@ -81,10 +81,10 @@ struct DiagnoseRequest {
   double expected_seconds = 0.0;  // of the estimate, for progress; 0: none
 };
 
-// Finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify". With
-// several shards twins are exchanged in OUTPUT.parts (twin_folder.hpp), which goes when the result stands. Error 74
-// when there is no room for the result; 73 when a living process is at this shard; 75 too when another shard has
-// published the result
+// Finds the physics that the job's model lacks and writes the result file; stages "replicates", "search",
+// "verify". With several shards twins are exchanged in OUTPUT.parts (twin_folder.hpp), which goes when the result
+// stands. Error 74 when there is no room for the result; 73 when a living process is at this shard; 75 too when
+// another shard has published the result
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress);
 
 // writes the columns that every effect of the catalogue has on the job's recordings (column_export.hpp), for methods

@@ -17,7 +17,7 @@ std::string fault_of(ActsOn channel) {
 // by what is known of the step at which nothing was named
 std::string first_reason(Selection const& selection, std::size_t i, double q) {
   auto const& scan = selection.first_scan[i];
-  if (selection.first_q[i] > q) return fmt::format("within chance (q above {:g})", q);
+  if (selection.first_q[i] > q) return fmt::format("within chance (p above {:g})", q);
   if (!selection.is_gate_open)
     return fmt::format("too little to look for: below {:g} % of the torque", 100.0 * smallest_mismatch_share);
   if (scan.gain <= 0.0) return "explains no more than noise, with the signs that physics allows";

@@ -118,11 +118,11 @@ std::string timing_sentence(double late_s, double rate_hz) {
   if (late_s == 0.0) return "";
   bool const is_late = late_s > 0.0;
   return fmt::format(
-      "The torque comes {:.2g} ms {} its rows, {:.2g} of a sample, as it does where drive and log are not in step, and "
-      "was "
-      "put right ({} recording.delay_s does so for good); only where both are read together is it a lag.",
-      1e3 * std::abs(late_s), is_late ? "after" : "before", std::abs(late_s) * rate_hz,
-      is_late ? "as much less in" : "as much more in");
+      "The torque comes {:.2g} ms {} its rows, {:.2g} of a sample, as it does where drive and log are not in step. "
+      "It was shifted back; {} recording.delay_s by as much to keep that. Only where drive and log are read together "
+      "is "
+      "it a lag.",
+      1e3 * std::abs(late_s), is_late ? "after" : "before", std::abs(late_s) * rate_hz, is_late ? "lower" : "raise");
 }
 
 }  // namespace torquescope

@@ -59,7 +59,7 @@ std::string bound_words(Effect const& effect, ReachedBound const& bound, JointKi
   for (char& letter : name)
     if (letter == '_') letter = ' ';
   return "its " + name + " ends at the " + (bound.side == BoundSide::lower ? "least" : "most") + " it can be, " +
-         quantity_text(bound.value, parameter.unit_for(joint)) + ": the law is none of the catalogue";
+         quantity_text(bound.value, parameter.unit_for(joint)) + ": the effect is none of the catalogue";
 }
 
 }  // namespace torquescope

@@ -67,7 +67,7 @@ double mismatch_share(ModelStage const& stage);
 double energy_share(ModelStage const& stage, double energy);
 // of the mismatch, were the twins' mean known: a draft has fewer twins to know it from
 double energy_about_true_mean(ModelStage const& stage);
-// called before and after every piece of work: "twins" (how many of how many), "search" and "verify" (effects)
+// called before and after every piece of work: "replicates" (how many of how many), "search" and "verify" (effects)
 using StageSink = std::function<void(std::string const& stage, std::size_t done, std::size_t total)>;
 
 }  // namespace torquescope

@@ -46,7 +46,7 @@ void read_effect(Section const& section, SerialChain const& chain, std::vector<A
   Effect const* effect = name ? find_effect(*name) : nullptr;
   if (effect != nullptr && effect->is_given()) {
     problems.push_back(problem_at(section, "name", fmt::format("\"{}\" cannot be simulated at one joint", *name),
-                                  "remove it: it is a law of several joints, which a diagnosis looks for"));
+                                  "remove it: it acts on several joints, which a diagnosis looks for"));
     return;
   }
   if (effect == nullptr) {

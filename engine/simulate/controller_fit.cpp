@@ -163,7 +163,7 @@ std::string in_words(ControllerFit const& fit) {
                        fit.r_squared, fit.noise.std);
   return fmt::format(
       "the controller is only approximated (R^2 {:.6f}, residual autocorrelation {:.2f} {:.2f} {:.2f} {:.2f} "
-      "at 1, 2, 5, 20 samples): twins carry the residual's level and colour",
+      "at 1, 2, 5, 20 samples): replicates carry the residual's level and colour",
       fit.r_squared, fit.residual_acf[0], fit.residual_acf[1], fit.residual_acf[2], fit.residual_acf[3]);
 }
 

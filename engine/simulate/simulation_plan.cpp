@@ -51,7 +51,7 @@ OptionTable<SimulationOptions> const& SimulationOptions::table() {
        {"duration_s", &O::duration_s, "s", 1e-3, 1e7, "length of the recording"},
        {"step_s", &O::step_s, "s", 1e-9, 1e-2,
         "closed_loop: longest step of the integrator; of an arm 2.5e-4 by default"},
-       {"validate", &O::validate, "makes a second recording with another reference and other noise, for unseen data"},
+       {"validate", &O::validate, "makes a second recording with another reference and other noise, for validation"},
        {"seed", &O::seed, "1", -1.0, 9e18, "of phases and noise; -1: the experiment's"}});
   return options;
 }

@@ -160,7 +160,8 @@ Problem runaway(Recording const& recording) {
                                           ": no reference was recorded, and the fitted joint cannot be led along the "
                                           "measured motion instead"};
   problem.help =
-      "record what the controller was told to follow and name it, reference = \"COLUMN\" in recording.columns: twins "
+      "record what the controller was told to follow and name it, reference = \"COLUMN\" in recording.columns: "
+      "replicates "
       "then move in the recording's own loop. If it cannot be had, check the torque's column, sign and torque_per_unit";
   return problem;
 }
@@ -209,7 +210,7 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
     made.loop.remark = "the loop found in the recording does not hold the fitted joint; " + made.loop.remark;
   } else if (decides && made.law_is_too_poor()) {
     Attempt tracking = led();
-    tracking.loop.remark = "twins in the loop found in the recording are louder than it; " + tracking.loop.remark;
+    tracking.loop.remark = "replicates in the loop found in the recording are louder than it; " + tracking.loop.remark;
     if (!tracking.ran_away()) made = std::move(tracking);
   }
   validate(!made.ran_away(), [&] { return runaway(recording); });

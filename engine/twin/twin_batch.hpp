@@ -32,7 +32,7 @@ struct VisitedTwin {
 // of a row, in matrices of one row per kept sample and a column per twin: the twin does not keep it
 inline constexpr double not_kept = std::numeric_limits<double>::infinity();
 
-inline constexpr char const* twins_name = "twins of this recording";  // in messages
+inline constexpr char const* twins_name = "replicates of this recording";  // in messages
 
 // one of a group as if it had been recorded
 Recording recording_of(TwinGroup const& group, std::size_t lane, double rate_hz);

@@ -46,7 +46,7 @@ class TwinExchange {
 // fail, and must not take this for one
 class TwinsAbandoned : public std::exception {
  public:
-  char const* what() const noexcept override { return "twins abandoned"; }
+  char const* what() const noexcept override { return "replicates abandoned"; }
 };
 
 struct TwinWorkers {

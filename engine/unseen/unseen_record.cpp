@@ -156,7 +156,8 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   take_out(artefacts.after, left_after);
   if (artefacts.are_known()) {
     result.rows = before.kept_rows;
-    result.nuisances.push_back("what the filters make of reversals, as twins have it, taken out of both residuals");
+    result.nuisances.push_back(
+        "what the filters make of reversals, as replicates have it, taken out of both residuals");
   }
   Eigen::VectorXd const left_with = left_after;
   double offset_before = 0.0, offset_after = 0.0;

@@ -27,6 +27,24 @@ std::string word(Verdict verdict) {
   return {};
 }
 
+std::string word(ErrorRows rows) {
+  switch (rows) {
+    case ErrorRows::one_way:
+      return "moving one way";
+    case ErrorRows::in_motion:
+      return "with reversals";
+    case ErrorRows::all:
+      return "all";
+  }
+  return {};
+}
+
+ErrorRows error_rows_called(std::string_view text) {
+  for (ErrorRows const rows : {ErrorRows::in_motion, ErrorRows::all})
+    if (text == word(rows)) return rows;
+  return ErrorRows::one_way;
+}
+
 bool names_physics(Verdict verdict) {
   return verdict == Verdict::named || verdict == Verdict::one_of_class || verdict == Verdict::partly;
 }

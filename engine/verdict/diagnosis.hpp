@@ -14,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,11 @@ enum class Verdict { none, named, one_of_class, partly, unexplained, insufficien
 std::string word(Verdict verdict);  // "class" for one_of_class
 // whether accepted effects stand as missing physics, all of it or a part
 bool names_physics(Verdict verdict);
+
+// rows that errors and pictures are of: without reversals and rests; without rests; every one
+enum class ErrorRows { one_way, in_motion, all };
+std::string word(ErrorRows rows);                    // as files have it: "moving one way", "with reversals", "all"
+ErrorRows error_rows_called(std::string_view word);  // any other word: one_way, as in older files
 
 struct ParameterEstimate {
   std::string name;
@@ -222,11 +228,11 @@ struct JointDiagnosis {
   std::vector<TorqueTrace> traces{};     // the validation recordings, else the training ones
   std::vector<ForwardSimulation> forward{};
   // how it was found
-  std::string rows = "moving one way";  // or "with reversals": what errors and pictures are of
-  std::vector<std::string> remarks{};   // what the motion closed or merged: sentences, in the reason, not stored
-  std::string reference_remark{};       // that no reference was recorded: a sentence of the reason, not stored
-  std::string timing_sentence{};        // what was done to the torque channel's time; in the reason
-  std::string loop_source;              // "identified", "approximated", "tracking"
+  ErrorRows rows = ErrorRows::one_way;
+  std::vector<std::string> remarks{};  // what the motion closed or merged: sentences, in the reason, not stored
+  std::string reference_remark{};      // that no reference was recorded: a sentence of the reason, not stored
+  std::string timing_sentence{};       // what was done to the torque channel's time; in the reason
+  std::string loop_source;             // "identified", "approximated", "tracking"
   std::string loop_remark;
   double torque_noise = unknown, disturbance = unknown;
   double friction_wander =

@@ -10,7 +10,7 @@
 namespace torquescope {
 namespace {
 
-bool are_all_rows(JointDiagnosis const& joint) { return joint.rows == "all"; }
+bool are_all_rows(JointDiagnosis const& joint) { return joint.rows == ErrorRows::all; }
 
 ErrorPair over_all(LeftOut const& left_out) { return {left_out.relerr, left_out.augmented_relerr}; }
 

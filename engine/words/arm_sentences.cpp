@@ -88,11 +88,12 @@ std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& f
   std::string when = when_text(facts.recording, facts.from_s, facts.until_s);
   when += when.empty() ? "all joints feel " : " all joints feel ";
   when.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(when.front())));
-  std::string text = fmt::format("{}{} ({}): on rows left out relerr over all joints falls from {} to {}", when,
+  std::string text = fmt::format("{}{} ({}): on held-out rows the error over all joints falls from {} to {}", when,
                                  name_list(alike, "or"), fmt::join(values, ", "), percent_text(facts.before),
                                  percent_text(facts.after));
   if (facts.unseen_before > 0.0)
-    text += fmt::format(", unseen from {} to {}", percent_text(facts.unseen_before), percent_text(facts.unseen_after));
+    text +=
+        fmt::format(", validation from {} to {}", percent_text(facts.unseen_before), percent_text(facts.unseen_after));
   std::vector<std::string> there;
   for (auto const& one : facts.unseen) {
     std::string const own = when_text(one.recording, one.from_s, one.until_s);
@@ -109,7 +110,7 @@ std::string too_few_rows_sentence(std::vector<std::string> const& recordings) {
 
 std::string own_masses_sentence(double own_relerr, double shared_relerr) {
   return fmt::format(
-      "The masses that the rows of this joint tell are not those of the other joints: its relerr is {} with its own, "
+      "The masses that the rows of this joint tell are not those of the other joints: its error is {} with its own, "
       "and "
       "{} with those that all share.",
       percent_text(own_relerr), percent_text(shared_relerr));
@@ -127,7 +128,7 @@ std::string arm_reason_sentence(Diagnosis const& diagnosis) {
     for (auto const& effect : diagnosis.arm->effects) text += (text.empty() ? "" : " ") + effect.sentence;
   ArmError const whole = validation_error_of_arm(diagnosis.joints);
   if (!whole.is_known()) return text;
-  text += fmt::format(" Validation relerr over all joints and samples {}", percent_text(whole.before));
+  text += fmt::format(" Validation error over all joints and samples {}", percent_text(whole.before));
   if (names_physics(diagnosis.verdict)) text += fmt::format(" to {}", percent_text(whole.after));
   return text + ".";
 }

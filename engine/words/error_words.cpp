@@ -60,7 +60,7 @@ std::string floor_words(double relerr, double floor) {
   std::string const text = percent_text(floor);
   if (relerr > nearly * floor) return ", floor " + text;
   if (relerr >= floor / nearly) return ", at the floor (about " + text + ")";
-  return fmt::format(", at the floor (about {}: what clean twins leave on average)", text);
+  return fmt::format(", at the floor (about {}: what simulated replicates leave on average)", text);
 }
 
 std::string left_out_clause(LeftOut const& left_out) {
@@ -71,7 +71,7 @@ std::string left_out_clause(LeftOut const& left_out) {
   return fmt::format(
       "{} of the time with {} of the residual's energy, near reversals, at rest or outside the motion of training, is "
       "left out of that; "
-      "with it the relerr is {}",
+      "with it the error is {}",
       percent_text(left_out.time), percent_text(left_out.energy), errors);
 }
 
@@ -80,13 +80,14 @@ std::string gain_sentence(JointDiagnosis const& joint) {
   double const before = unseen ? joint.validation_relerr : joint.cv_relerr;
   double const after = unseen ? joint.augmented_validation_relerr : joint.augmented_cv_relerr;
   if (!std::isfinite(before) || !std::isfinite(after)) return "";
-  std::string const text = fmt::format("{} relerr {} to {}", unseen ? "Unseen" : "Cross-validated",
+  std::string const text = fmt::format("{} error {} to {}", unseen ? "Validation" : "Cross-validated",
                                        percent_text(before), percent_text(after));
   std::string left_out = left_out_clause(unseen ? joint.validation_left_out : joint.train_left_out);
   if (!left_out.empty() && !unseen) left_out += " in training";
   return text + floor_words(after, joint.floor_relerr) + (left_out.empty() ? "" : "; " + left_out) + "." +
          (unseen && keeps_little(before, after, joint.floor_relerr)
-              ? " That is less than a quarter of what twins with these names promise: something else is missing there."
+              ? " That is less than a quarter of what replicates with these names promise: something else is missing "
+                "there."
               : "");
 }
 
@@ -101,14 +102,14 @@ std::string unseen_is_other_sentence(JointDiagnosis const& joint) {
     if (!is_other_kind(unseen, train, floor)) return "";
   }
   return fmt::format(
-      "The unseen recording holds something that the training recording does not show: relerr {} there, {} here.",
+      "The validation recording holds something that the training recording does not show: error {} there, {} here.",
       percent_text(unseen), percent_text(train));
 }
 
 std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const& change) {
   std::string const what = change.goes_both_ways ? "Dry friction differs" : "Friction or the offset differs";
   return fmt::format(
-      "{} between recordings: in {} it is {} {} than in training, and with that the relerr there would be "
+      "{} between recordings: in {} it is {} {} than in training, and with that the error there would be "
       "{} instead of {} (warm-up, or another load).",
       what, change.recording, quantity_text(std::abs(change.level), joint.unit_torque),
       change.level < 0.0 ? "less" : "more", percent_text(change.relerr_with), percent_text(change.relerr_before));
@@ -125,14 +126,15 @@ std::string likeness_sentence(JointDiagnosis const& joint) {
   if (joint.twins == 0) return fmt::format("Nothing is missing in the model of {}.", which_joint(joint));
   std::string const p = omnibus_text(joint);
   if (!(joint.omnibus_p < usual_p) || !std::isfinite(joint.mismatch_share))
-    return fmt::format("The residual of {} looks like that of {} clean twins ({}).", which_joint(joint), joint.twins,
-                       p);
-  std::string const larger =
-      fmt::format("The residual of {} is larger than that of {} clean twins ({}), but only by {} of the torque",
-                  which_joint(joint), joint.twins, p, percent_text(joint.mismatch_share));
+    return fmt::format("The residual of {} looks like that of {} simulated replicates ({}).", which_joint(joint),
+                       joint.twins, p);
+  std::string const larger = fmt::format(
+      "The residual of {} is larger than that of {} simulated replicates ({}), but only by {} of the torque",
+      which_joint(joint), joint.twins, p, percent_text(joint.mismatch_share));
   if (joint.mismatch_share <= smallest_mismatch_share) return larger + ": too little to look for.";
   return fmt::format(
-      "{}, which is not enough beside how much the twins differ from one another; and no known effect of {} explains "
+      "{}, which is not enough beside how much the replicates differ from one another; and no known effect of {} "
+      "explains "
       "both "
       "more than chance does and more than {} of the torque.",
       larger, n_asked(joint), percent_text(smallest_mismatch_share));
@@ -142,10 +144,11 @@ std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& 
   Candidate const* refused = surest_refused(joint);
   bool const is_for_one = joint.refutation.empty() && joint.omnibus_p >= usual_p && refused && refused->q < usual_p;
   if (!is_for_one)
-    return fmt::format("The residual of {} is not what clean twins have ({}), but {}.", which_joint(joint),
+    return fmt::format("The residual of {} is not what simulated replicates have ({}), but {}.", which_joint(joint),
                        omnibus_text(joint), nothing_fits);
   return fmt::format(
-      "The residual of {} is no larger than that of clean twins ({}), but {} explains more of it than of theirs "
+      "The residual of {} is no larger than that of simulated replicates ({}), but {} explains more of it than of "
+      "theirs "
       "(beyond chance). It gets no name: {}.",
       which_joint(joint), omnibus_text(joint), refused->name, refused->reason);
 }

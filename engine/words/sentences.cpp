@@ -176,7 +176,7 @@ std::string simulated_sentence(JointDiagnosis const& joint) {
   return fmt::format(
       "Simulated from its commands, the {} position is off by {} instead of {} of its motion, over all "
       "samples.",
-      predicts ? "unseen" : "training", percent_text(after), percent_text(before));
+      predicts ? "validation" : "training", percent_text(after), percent_text(before));
 }
 
 std::string effect_clauses(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {
@@ -218,7 +218,7 @@ std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
 std::string left_out_sentence(std::string const& rows, double relerr, LeftOut const& left_out) {
   std::string const clause = left_out_clause(left_out);
   if (clause.empty() || !std::isfinite(relerr)) return "";
-  return fmt::format("{} relerr {}; {}.", rows, percent_text(relerr), clause);
+  return fmt::format("{} error {}; {}.", rows, percent_text(relerr), clause);
 }
 
 std::string none_reason(JointDiagnosis const& joint) {
@@ -227,7 +227,7 @@ std::string none_reason(JointDiagnosis const& joint) {
     text = "Only the rows that were looked at are meant, which hold less than half of the residual's energy.";
   append(text, likeness_sentence(joint));
   append(text, left_out_sentence("Training", joint.train_relerr, joint.train_left_out));
-  append(text, left_out_sentence("Unseen", joint.validation_relerr, joint.validation_left_out));
+  append(text, left_out_sentence("Validation", joint.validation_relerr, joint.validation_left_out));
   append(text, joint.power_sentence);
   if (!joint.refutation.empty()) append(text, sentence(joint.refutation));
   return text;
@@ -245,7 +245,7 @@ std::string unexplained_reason(JointDiagnosis const& joint) {
   } else {
     UnexplainedPart const& part = joint.unexplained.front();
     std::string const where = place_phrase(joint, part.where);
-    text = fmt::format("{} of the residual of {} lies{}, more than clean twins have there, but {}.",
+    text = fmt::format("{} of the residual of {} lies{}, more than simulated replicates have there, but {}.",
                        percent_text(part.energy_share), which_joint(joint), where.empty() ? "" : " " + where,
                        nothing_fits);
   }

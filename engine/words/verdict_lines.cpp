@@ -14,16 +14,27 @@
 namespace torquescope {
 namespace {
 
-// "0.11 N m [0.10, 0.12]", "3.8 ms [3.1, 4.4]"
+// cos(7 q) has seven waves in a turn of the joint
+bool counts_waves(ParameterEstimate const& one) { return one.unit == "1/rad" && one.name.ends_with("order"); }
+
+// "0.11 N m [0.10, 0.12]", "3.8 ms [3.1, 4.4]", "7 a turn"; no interval that the digits do not show
 std::string number_of(ParameterEstimate const& one) {
   constexpr double short_s = 0.1, thousand = 1e3;
   bool const is_short = one.unit == "s" && std::abs(one.value) < short_s;
   double const scale = is_short ? thousand : 1.0;
-  std::string const unit = one.unit.empty() || one.unit == "1" ? "" : is_short ? " ms" : " " + one.unit;
-  std::string text = two_digits(scale * one.value) + unit;
-  if (std::isfinite(one.lower) && std::isfinite(one.upper))
-    text += fmt::format(" [{}, {}]", two_digits(scale * one.lower), two_digits(scale * one.upper));
-  return text;
+  std::string unit = one.unit.empty() || one.unit == "1" ? "" : is_short ? " ms" : " " + one.unit;
+  if (counts_waves(one)) unit = " a turn";
+  std::string const value = two_digits(scale * one.value);
+  if (!std::isfinite(one.lower) || !std::isfinite(one.upper)) return value + unit;
+  std::string const lower = two_digits(scale * one.lower), upper = two_digits(scale * one.upper);
+  return value + unit + (lower == value && upper == value ? "" : fmt::format(" [{}, {}]", lower, upper));
+}
+
+// of a number beside the first: "speed" of stribeck_speed; none says itself in "7 a turn"
+std::string short_name(NamedEffect const& effect, ParameterEstimate const& one) {
+  if (counts_waves(one)) return "";
+  std::string const lead = effect.name + "_";
+  return in_words(one.name.starts_with(lead) ? one.name.substr(lead.size()) : one.name) + " ";
 }
 
 // "Stribeck friction" of "Stribeck friction: falls with speed just above rest"; where the title is a sentence, the name
@@ -44,7 +55,7 @@ std::string with_numbers(NamedEffect const& effect, std::size_t most) {
     bool const is_first = told_numbers == 0;
     // a second one of the same unit is another component of the same size: a sine beside its cosine
     if (told_numbers == most || (!is_first && one.unit == effect.parameters.front().unit)) continue;
-    text += is_first ? " " + number_of(one) : fmt::format(", {} {}", one.name, number_of(one));
+    text += is_first ? " " + number_of(one) : fmt::format(", {}{}", short_name(effect, one), number_of(one));
     ++told_numbers;
   }
   return text;
@@ -55,8 +66,8 @@ std::string class_of(NamedEffect const& effect, std::size_t most_numbers = three
   constexpr std::size_t most = 2;  // beside the first
   std::string text = with_numbers(effect, most_numbers);
   for (std::size_t k = 0; k < std::min(most, effect.equivalent.size()); ++k)
-    text += " | " + in_words(effect.equivalent[k]);
-  if (effect.equivalent.size() > most) text += fmt::format(" | {} more", effect.equivalent.size() - most);
+    text += " or " + in_words(effect.equivalent[k]);
+  if (effect.equivalent.size() > most) text += fmt::format(" or {} more", effect.equivalent.size() - most);
   return text;
 }
 
@@ -72,7 +83,7 @@ std::string named_text(JointDiagnosis const& joint, std::size_t most_numbers) {
     auto const p_of = [&](NamedEffect const& one) { return p_text(one.p, one.p_is_bound, least_p(joint.twins)); };
     bool const is_last = k + 1 == shown;
     text += (text.empty() ? "" : "; ") + class_of(effects[k], most_numbers);
-    if (is_last || p_of(effects[k]) != p_of(effects[k + 1])) text += "   " + p_of(effects[k]);
+    if (is_last || p_of(effects[k]) != p_of(effects[k + 1])) text += ", " + p_of(effects[k]);
   }
   if (effects.size() > shown) text += fmt::format("; and {} more", effects.size() - shown);
   return text;
@@ -165,7 +176,7 @@ std::string both_text(ErrorPair const& training, ErrorPair const& validation) {
 
 // "on rows that move one way, 65 % of training and 70 % of validation"
 std::string rows_phrase(JointDiagnosis const& joint) {
-  std::string text = joint.rows == "with reversals" ? "on rows in motion" : "on rows that move one way";
+  std::string text = joint.rows == ErrorRows::in_motion ? "on rows in motion" : "on rows that move one way";
   std::vector<std::string> shares;
   auto const share = [&](char const* of, LeftOut const& left_out) {
     if (std::isfinite(left_out.time)) shares.push_back(percent_text(1.0 - left_out.time) + of);
@@ -186,7 +197,7 @@ VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joi
   std::string const all = both_text(training_error(joint), validation_error(joint));
   std::string const of_rows = both_text({joint.train_relerr, joint.augmented_train_relerr},
                                         {joint.validation_relerr, joint.augmented_validation_relerr});
-  bool const are_all = joint.rows == "all" || (joint.train_left_out.time == 0.0 && all == of_rows);
+  bool const are_all = joint.rows == ErrorRows::all || (joint.train_left_out.time == 0.0 && all == of_rows);
   if (!all.empty()) lines.errors = "error, all samples: " + all;
   if (!are_all && !of_rows.empty()) lines.rows = fmt::format("error {}: {}", rows_phrase(joint), of_rows);
   add_noise(lines.rows.empty() ? lines.errors : lines.rows, joint.floor_relerr);

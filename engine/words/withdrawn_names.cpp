@@ -16,10 +16,10 @@ std::string too_little_clause(JointDiagnosis const& joint, double share) {
 
 namespace {
 
-// "the unseen relerr from 2.2 % to 2.5 %"
+// "the validation error from 2.2 % to 2.5 %"
 std::string before_and_after(JointDiagnosis const& joint) {
   bool const is_unseen = std::isfinite(joint.validation_relerr);
-  return fmt::format("the {} relerr from {} to {}", is_unseen ? "unseen" : "cross-validated",
+  return fmt::format("the {} error from {} to {}", is_unseen ? "validation" : "cross-validated",
                      percent_text(is_unseen ? joint.validation_relerr : joint.cv_relerr),
                      percent_text(is_unseen ? joint.augmented_validation_relerr : joint.augmented_cv_relerr));
 }
@@ -34,7 +34,7 @@ std::string too_small_clause(JointDiagnosis const& joint) {
 
 std::string other_joints_sentence(JointDiagnosis const& joint, std::vector<std::string> const& columns, double relerr) {
   return fmt::format(
-      "What is missing at {} goes with the motion of {}, which {} the cross-validated relerr from {} to {}, further "
+      "What is missing at {} goes with the motion of {}, which {} the cross-validated error from {} to {}, further "
       "than any effect at this joint: other joints load it. Diagnose the arm as a whole (model.robot = \"ARM.toml\" or "
       "its URDF).",
       which_joint(joint), fmt::join(columns, " and "), columns.size() == 1 ? "takes" : "take",
@@ -51,7 +51,7 @@ std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away) 
   if (twins_ran_away)
     return text + fmt::format(", and a joint simulated with {} no longer follows the reference", with);
   if (!std::isfinite(joint.floor_relerr)) return text;
-  return text + fmt::format(", where twins with {} promise {}", with, percent_text(joint.floor_relerr));
+  return text + fmt::format(", where replicates with {} promise {}", with, percent_text(joint.floor_relerr));
 }
 
 }  // namespace torquescope

@@ -11,11 +11,11 @@
 
 namespace torquescope {
 
-// because of unseen recordings: "backlash, which would explain it, takes the unseen relerr from
+// because of unseen recordings: "backlash, which would explain it, takes the validation error from
 // 2.2 % to 2.5 %, where twins with it promise 1.6 %", or "and a joint simulated with it no longer follows the
 // reference"
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away);
-// because hardly anything is won: "cogging takes the unseen relerr from 2.22 % to 2.14 %: too little to be a finding"
+// because hardly anything is won: "cogging takes the validation error from 2.22 % to 2.14 %: too little ..."
 std::string too_small_clause(JointDiagnosis const& joint);
 // because the joint is one of a moving arm: a sentence. Columns: of the joints that load it; relerr: with their motion
 std::string other_joints_sentence(JointDiagnosis const& joint, std::vector<std::string> const& columns, double relerr);

@@ -104,7 +104,7 @@ CASE_LIST = [
     Case("14_velocity_lagging", ["velocity_late"], values=SOUND, job="job_unseen.toml", verdict=NONE),
     Case("14b_velocity_good", values=SOUND, sound=True, verdict=NONE),
     Case("14c_velocity_minus", ["velocity_factor"], values=SOUND, verdict=NONE),
-    Case("15a_other_joints_torque", ["less_than_none"], run=65, says=["less than none"], verdict=("data_fault",)),
+    Case("15a_other_joints_torque", ["less_than_none"], run=65, says=["makes negative what cannot be"], verdict=("data_fault",)),
     Case("15b_command_as_position", ["command_as_position"], verdict=("data_fault",)),
     Case("16_two_publishers", ["rows_interleaved"], run=65, verdict=("data_fault",)),
     Case("17_every_row_twice", ["rows_repeated"], values=SOUND, verdict=NONE),

@@ -133,8 +133,8 @@ class OnSlurm(study.FaultTest):
         self.finished(folder, "r.h5")
         self.assertFalse(os.path.exists(folder / "r.h5.merge.sbatch"))
         logs = " ".join(self.logs(folder).split())
-        self.assertIn("0/2 (--shard): twins are shared in r.h5.parts", logs)
-        self.assertIn("1/2 (--shard): twins are shared in r.h5.parts", logs)
+        self.assertIn("0/2 (--shard): replicates are shared in r.h5.parts", logs)
+        self.assertIn("1/2 (--shard): replicates are shared in r.h5.parts", logs)
         self.assertFalse(os.path.exists(folder / "r.h5.parts"), logs)
 
     def test_what_sbatch_says_is_said_as_it_said_it(self):

@@ -41,7 +41,7 @@ class Twins(study.FaultTest):
 
     @classmethod
     def job_letters(cls):
-        """What the names of this job's twins end with (engine/store/RESULT_FORMAT.md)."""
+        """What the names of this job's replicates end with (engine/store/RESULT_FORMAT.md)."""
         with h5py.File(cls.whole / "r.h5", "r", locking=False) as file:
             inputs = file["job"].attrs["inputs_sha256"]
         texts = [b"torquescope work", inputs]
@@ -74,7 +74,7 @@ class Twins(study.FaultTest):
 
     def made_here(self, ended):
         """Parts simulated by this process, and all."""
-        told = ended.said.split(" parts of the twins were simulated here")[0].split()
+        told = ended.said.split(" parts of the replicates were simulated here")[0].split()
         return int(told[-3]), int(told[-1])
 
     def test_three_tasks_of_an_array_at_once(self):
@@ -88,7 +88,7 @@ class Twins(study.FaultTest):
             self.assert_ended(ended, 0)
             if "nothing runs again" in ended.said:
                 continue  # began when all was done
-            self.assertIn("(SLURM_ARRAY_TASK_ID): twins are shared", ended.said)
+            self.assertIn("(SLURM_ARRAY_TASK_ID): replicates are shared", ended.said)
             if "another shard was first" not in ended.said:
                 accounts.append(self.made_here(ended))
         self.assertTrue(accounts)
@@ -117,7 +117,7 @@ class Twins(study.FaultTest):
             process.terminate()
             said = " ".join(process.stderr.read().decode().split())
             self.assertEqual(process.wait(), 75, said)
-        self.assertIn("twins so far are safe in r.h5.parts", said)
+        self.assertIn("replicates so far are safe in r.h5.parts", said)
         self.assertGreater(len(self.parts(folder)), before)
         before = len(self.parts(folder))
         ended = folder.run(*shard(0, 2))
@@ -138,7 +138,7 @@ class Twins(study.FaultTest):
         os.replace(parts[2], parts[3])
         ended = folder.run(*shard(1, 2))
         self.assert_ended(ended, 0)
-        self.assertEqual(ended.said.count("its twins are simulated again"), 2)
+        self.assertEqual(ended.said.count("its replicates are simulated again"), 2)
         made, count = self.made_here(ended)
         self.assertGreaterEqual(made, count - len(parts) + 4)
         self.assert_same(folder)
@@ -151,7 +151,7 @@ class Twins(study.FaultTest):
             self.assertIn("shard 0/2 of r.h5 is at work already", ended.said)
             ended = folder.run("status", "r.h5")
             self.assert_ended(ended, 0)
-            self.assertIn("3 parts of its twins are safe in r.h5.parts", ended.out)
+            self.assertIn("3 parts of its replicates are safe in r.h5.parts", ended.out)
             self.assertIn("at work", ended.out)
 
     def test_one_process_alone_says_how_far_it_is_and_takes_the_dead_ones_word_away(self):
@@ -186,7 +186,7 @@ class Twins(study.FaultTest):
                 self.assertEqual(os.listdir(folder / "r.h5.parts"), ["shard-0000-of-0001.lock"])
                 self.assert_ended(status, 0)
                 told, = json.loads(status.out)["processes"]
-                self.assertEqual((told["stage"], told["alive_here"]), ("twins", False))
+                self.assertEqual((told["stage"], told["alive_here"]), ("replicates", False))
                 self.assertIn("begins anew", folder.run("status", "r.h5").out)
             else:
                 self.assertFalse(glob.glob(folder / "r.h5*"), "however it ended")
@@ -198,7 +198,8 @@ class Twins(study.FaultTest):
     def test_a_quiet_one_says_why_it_stopped(self):
         folder = self.folder(self.JOB.replace("twins = 60", "twins = 100000"))
         process = folder.start("diagnose", "job.toml", "--out", "r.h5", "--threads", "1", "--quiet")
-        while '"stage": "twins"' not in json.dumps(json.loads(folder.run("status", "r.h5", "--json", "-").out or "{}")):
+        told = lambda: json.loads(folder.run("status", "r.h5", "--json", "-").out or "{}")  # noqa: E731
+        while '"stage": "replicates"' not in json.dumps(told()):
             time.sleep(0.01)
         process.terminate()
         ended = study.Ended(process)

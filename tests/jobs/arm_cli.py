@@ -234,7 +234,7 @@ class Arm(unittest.TestCase):
         self.assertEqual(page.code, 0, page.err)
         with open(os.path.join(self.folder, "planar.html"), encoding="utf-8") as file:
             text = file.read()
-        for word in ("joint_torque_1", "joint_torque_2", "mxr1", "reproduce the torques of an unseen motion"):
+        for word in ("joint_torque_1", "joint_torque_2", "mxr1", "reproduce the torques of a validation motion"):
             self.assertIn(word, text)
 
     def test_check_speaks_of_every_joint(self):

@@ -93,13 +93,13 @@ class ArmDiagnosis(arm_cli.Arm):
             self.assertIn(f"progress stage=joint{joint}:search ", done.err)
 
     def test_too_few_twins_for_any_name_are_refused(self):
-        """Two joints at q = 0.02: a name needs a p of 0.009, and 60 twins show none below 1 / 61."""
+        """Two joints at q = 0.02: a name needs a p of 0.009, and 60 replicates show none below 1 / 61."""
         self.write("arm.csv", recording(seconds=4.0))
         self.write("arm.toml", JOB + "q = 0.02\n")
         done = self.here("diagnose", "arm.toml", "--out", "told.h5")
         self.assertEqual(done.code, 78, done.err)
         self.assertIn("arm.toml:", done.err)
-        self.assertIn("60 clean twins cannot show a chance below 0.016, and a name", done.err)
+        self.assertIn("60 replicates cannot show a chance below 0.016, and a name", done.err)
         self.assertIn("needs 0.009 (q over 2 joints and the arm)", done.err)
         self.assertIn("twins = 111 or more", done.err)
 

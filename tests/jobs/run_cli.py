@@ -45,7 +45,7 @@ class GoodRun(Folder):
             "coulomb_negative",
             "MSE",
             "error, train",
-            "error, unseen",
+            "error, validation",
             "gap to OLS, median of 3",
         ]:
             self.assertIn("\n  " + row, outcome.out)

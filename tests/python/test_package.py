@@ -76,7 +76,7 @@ class ADiagnosisOfArrays(unittest.TestCase):
         self.assertRegex(repr(self.found), r"^<Result 'motion': (named|class): Joint 1 loses")
         block = self.found._repr_html_()
         self.assertIn("Missing physics", block)
-        self.assertIn("clean twins look like this", block)
+        self.assertIn("simulated replicates look like this", block)
 
     def test_has_frames(self):
         parameters = self.found.to_frame()

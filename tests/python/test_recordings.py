@@ -3,7 +3,9 @@
 What a Recording takes and refuses, without the compiled engine. PACKAGE: the folder that holds `torquescope`.
 """
 
+import inspect
 import pickle
+import re
 import sys
 import unittest
 
@@ -55,6 +57,20 @@ class ARecording(unittest.TestCase):
         again = pickle.loads(pickle.dumps(made))
         self.assertEqual((again.name, again.options), ("motion", {"torque_per_unit": 0.1}))
         np.testing.assert_array_equal(again.position, Q)
+
+
+class Help(unittest.TestCase):
+    def test_says_units_errors_and_one_example(self):
+        for thing in (ts.Recording, ts.Robot, ts.diagnose, ts.identify):
+            text = inspect.getdoc(thing)
+            for word in ("Example", "rrors", "nits"):
+                self.assertIn(word, text, thing.__name__)
+
+    def test_the_example_of_a_recording_is_one(self):
+        line = re.search(r"Example +(.*)", inspect.getdoc(ts.Recording))[1]
+        names = {"ts": ts, "t": T, "q": Q, "tau": TAU, "q_ref": Q}
+        exec(line, names)
+        self.assertEqual((len(names["motion"]), names["motion"].joint or names["motion"].name), (100, "elbow"))
 
 
 if __name__ == "__main__":

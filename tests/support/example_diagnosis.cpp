@@ -237,7 +237,7 @@ JointDiagnosis invented_joint() {
   joint.nuisances = {"offset", "phase of cogging"};
   joint.traces = {invented_trace()};
   joint.forward = {{"invented_unseen.csv", 0.0124, 0.0031, 0.57, 1.5e-5}};
-  joint.rows = "with reversals";
+  joint.rows = ErrorRows::in_motion;
   joint.loop_source = "identified";
   joint.loop_remark = "position and velocity loop, found from the reference";
   joint.torque_noise = 0.018;

@@ -44,7 +44,7 @@ std::string option_text(std::vector<OptionDescription> const& options) {
     }
     table.row({option.key, standard, takes, meaning});
   }
-  return table.text(page_width);
+  return table.text(page_width());
 }
 
 std::string entry_text(CatalogueEntry const& entry, Ink const& ink) {

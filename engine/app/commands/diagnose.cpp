@@ -57,7 +57,7 @@ constexpr StopWords words_of_one{
     "stopped in the middle of a step that takes long: nothing was written, the same command begins anew"};
 constexpr StopWords words_of_shard{
     "stopping after the running step of the search",
-    "stopped in the middle of a step that takes long: the same command goes on with the twins that are safe"};
+    "stopped in the middle of a step that takes long: the same command goes on with the replicates that are safe"};
 
 void print_baseline(Session const& session, Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
@@ -66,7 +66,7 @@ void print_baseline(Session const& session, Diagnosis const& diagnosis) {
     std::string line =
         fmt::format("{}{} parameters; error {} train", whose, joint.baseline.size(), percent_text(joint.train_relerr));
     if (std::isfinite(joint.validation_relerr))
-      line += fmt::format(", {} unseen", percent_text(joint.validation_relerr));
+      line += fmt::format(", {} validation", percent_text(joint.validation_relerr));
     LeftOut const& left_out = std::isfinite(joint.validation_relerr) ? joint.validation_left_out : joint.train_left_out;
     if (left_out.time > 0.0)
       line += fmt::format("; {} over all rows, of which {} with {} of the residual's energy are left out",
@@ -156,7 +156,7 @@ ExitCode diagnose_recordings(Job job, DiagnoseArguments const& arguments, Sessio
   request.stop_requested = stop_requested;
   session.note(session.topic_line(
       "job",
-      fmt::format("{}: {} recordings to fit, {} to judge; {} parameters and the laws of drive and gear",
+      fmt::format("{}: {} recordings to fit, {} to judge; {} parameters and the effects of drive and gear",
                   servo.experiment.name, servo.training.size(), servo.validation.size(), servo.regressor->size())));
   session.note(session.topic_line("threads", fmt::format("{} ({}), seed {}", request.threads.count,
                                                          request.threads.reason, servo.experiment.seed)));
@@ -227,7 +227,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
     session.note(session.topic_line("warning", *fewer));
   if (shard.count > 1)
     session.note(session.topic_line(
-        "shard", fmt::format("{}/{} ({}): twins are shared in {}; --shard 0/1 makes all of them here", shard.index,
+        "shard", fmt::format("{}/{} ({}): replicates are shared in {}; --shard 0/1 makes all of them here", shard.index,
                              shard.count, shard.reason, segment_folder_of(output).string())));
   Diagnosis diagnosis;
   try {
@@ -255,7 +255,7 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
   auto const arguments = std::make_shared<DiagnoseArguments>();
   CLI::App* command = app.add_subcommand(
       "diagnose",
-      "Finds the physics that a job's model lacks: where, which, how sure, and what it buys on unseen data.");
+      "Finds the physics that a job's model lacks: where, which, how sure, and what it brings on held-out data.");
   command->footer(
       "  torquescope diagnose jobs/lab_joint_3.toml\n"
       "  torquescope diagnose jobs/servo_loads.toml --leave-out mass_kg\n"
@@ -273,7 +273,7 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
       ->group("results");
   command
       ->add_option("--shard", arguments->shard,
-                   "one of N processes that share the twins of this diagnosis; killed? the same command goes on "
+                   "one of N processes that share the replicates of this diagnosis; killed? the same command goes on "
                    "[SLURM_ARRAY_TASK_ID, SLURM_PROCID, OMPI_COMM_WORLD_RANK; 0/1 for a diagnosis of its own]")
       ->type_name("I/N")
       ->check(no_shard)

@@ -62,7 +62,7 @@ ExitCode list_entries(std::string const& word, Session const& session) {
       table.row({entry.name, entry.title});
       listed.push_back(entry);
     }
-    session.result(session.result_ink().bold(plural(kind)) + "\n" + table.text(page_width));
+    session.result(session.result_ink().bold(plural(kind)) + "\n" + table.text(page_width()));
   }
   session.document(list_json(listed));
   session.note("more: torquescope describe NAME\n");

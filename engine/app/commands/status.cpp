@@ -43,13 +43,13 @@ std::string status_text(JobStatus const& status, fs::path const& result, Ink con
   for (auto const& estimator : status.estimators)
     runs.row({printable(estimator.label), fmt::format("{} of {}", estimator.ended, estimator.runs),
               std::to_string(estimator.begun), fmt::format("{} %", percent(estimator))});
-  text += runs.text(page_width);
+  text += runs.text(page_width());
   TextTable writers({Align::left, Align::left, Align::right, Align::right, Align::left, Align::left}, "  ");
   writers.row({"shard", "host", "process", "segments", "last written (UTC)", ""});
   for (auto const& writer : status.writers)
     writers.row({fmt::format("{}/{}", writer.shard, writer.shards), printable(writer.host), std::to_string(writer.pid),
                  std::to_string(writer.segments), printable(writer.last_written), writer.is_alive ? "at work" : ""});
-  text += writers.text(page_width);
+  text += writers.text(page_width());
   for (auto const& name : status.damaged)
     text += hanging(ink.warning("warning") + "  ", printable(name) + " is damaged; its generations run again");
   return text;
@@ -105,12 +105,12 @@ std::string diagnosis_status_text(std::vector<DiagnosisStanding> const& standing
                                  standings.empty() ? "" : ", job " + printable(standings.front().job));
   for (auto const& one : standings) text += hanging("  ", standing_line(one));
   if (parts > 0)
-    text += fmt::format("  {} parts of its twins are safe in {}\n", parts,
+    text += fmt::format("  {} parts of its replicates are safe in {}\n", parts,
                         printable(segment_folder_of(result).string()));
   bool const is_dead = std::none_of(standings.begin(), standings.end(), [](auto const& one) { return one.is_alive; });
   if (is_dead)
     text += fmt::format("  no process of this host is at it; the same command {}\n",
-                        parts > 0 ? "goes on with the twins that are safe" : "begins anew");
+                        parts > 0 ? "goes on with the replicates that are safe" : "begins anew");
   return text;
 }
 
@@ -186,8 +186,9 @@ ExitCode show_status(std::string const& name, Session const& session) {
     return Problem{
         .code = ExitCode::no_input,
         .what = fmt::format("there is neither {} nor a segment in {}", result.string(), folder.string()),
-        .help = "a run writes its first segment after 20 s (run --save-every), a diagnosis says how far it is from its "
-                "beginning"};
+        .help =
+            "a run writes its first segment after 20 s (run --save-every), a diagnosis says how far it is from its "
+            "beginning"};
   });
   session.result(status_text(status, result, session.result_ink()));
   session.document(status_json(status, result, false));

@@ -29,7 +29,7 @@ std::string block_text(ResultSummary const& summary, std::vector<EstimatorSummar
     heading.push_back(column_title(*estimator) + " train");
     if (!summary.has_validation) continue;
     columns.push_back(Align::right);
-    heading.push_back("unseen");
+    heading.push_back("validation");
   }
   columns.push_back(Align::left);
   TextTable table(columns, "  ");
@@ -53,7 +53,7 @@ std::string block_text(ResultSummary const& summary, std::vector<EstimatorSummar
   add(
       "arm, all rows", [](EstimatorSummary const& e) { return in_percent(e.relerr_all_rows); },
       [](EstimatorSummary const& e) { return in_percent(e.unseen_relerr_all_rows); });
-  std::string const text = table.text(page_width);
+  std::string const text = table.text(page_width());
   auto const end = text.find('\n');
   return ink.bold(text.substr(0, end)) + text.substr(end);
 }
@@ -74,7 +74,7 @@ std::vector<std::string> unexplained_joints(ResultSummary const& summary) {
     sentences.push_back(fmt::format(
         "joint {} ({}): no fit explains its torque, the error is {:.3g} %{}, and no other sign, order, zero or unit "
         "that the check tries mends it: look at its columns, at their timing, and whether it moves enough",
-        j + 1, summary.arm->joints[j], 100.0 * least, summary.has_validation ? " on unseen rows" : ""));
+        j + 1, summary.arm->joints[j], 100.0 * least, summary.has_validation ? " on validation rows" : ""));
   }
   return sentences;
 }

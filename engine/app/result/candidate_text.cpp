@@ -17,12 +17,6 @@ namespace torquescope {
 
 namespace {
 
-
-std::string q_cell(double q) {
-  if (!std::isfinite(q)) return "";
-  return q < 0.0005 ? "<0.001" : fmt::format("{:.3f}", q);
-}
-
 bool is_tested(Candidate const& one) { return one.decision != Decision::not_tested; }
 bool is_taken(Candidate const& one) { return is_tested(one) && one.decision != Decision::rejected; }
 
@@ -62,10 +56,9 @@ bool is_cross_validated(Candidate const* one) { return std::isfinite(one->cv_gai
 std::string table_of(JointDiagnosis const& joint, std::vector<Candidate const*> const& shown, bool with_family) {
   using Align = TextTable::Align;
   double const least = least_p(joint.twins);
-  std::vector<Align> columns{Align::left,  Align::left,  Align::right, Align::right,
-                             Align::right, Align::right, Align::left};
+  std::vector<Align> columns{Align::left, Align::left, Align::right, Align::right, Align::right, Align::left};
   bool const with_cv = std::any_of(shown.begin(), shown.end(), is_cross_validated);
-  constexpr std::ptrdiff_t of_family = 1, of_cv = 5;
+  constexpr std::ptrdiff_t of_family = 1, of_cv = 4;
   if (!with_cv) columns.erase(columns.begin() + of_cv);
   if (!with_family) columns.erase(columns.begin() + of_family);
   TextTable table(columns, std::string(lead_columns, ' '));
@@ -75,22 +68,21 @@ std::string table_of(JointDiagnosis const& joint, std::vector<Candidate const*> 
     table.row(std::move(cells));
   };
   auto const reasons = reasons_of(shown, Decision::rejected);
-  row({"effect", "family", "z", "p", "q", "CV gain", ""});
+  row({"effect", "family", "z", "p", "CV gain", ""});
   for (auto const* one : shown) {
     bool const tested = is_tested(*one);
     row({printable(one->name), printable(one->family),
          tested && std::isfinite(one->z) ? fmt::format("{:.1f}", one->z) : "",
-         tested ? p_cell(one->p, false, least) : "", tested ? q_cell(one->q) : "", cv_gain_cell(one->cv_gain),
-         decision_cell(*one, reasons)});
+         tested ? p_cell(one->p, false, least) : "", cv_gain_cell(one->cv_gain), decision_cell(*one, reasons)});
   }
   // wide enough for any cell: what is too long for the page is decided by the caller, not by wrapping
-  return table.text(4 * page_width);
+  return table.text(4 * page_width());
 }
 
 bool fits_page(std::string const& text) {
   for (std::size_t begin = 0; begin < text.size();) {
     std::size_t const end = std::min(text.find('\n', begin), text.size());
-    if (columns_of(text.substr(begin, end - begin)) > page_width) return false;
+    if (columns_of(text.substr(begin, end - begin)) > page_width()) return false;
     begin = end + 1;
   }
   return true;

@@ -224,12 +224,12 @@ std::string diagnosed_model_text(Diagnosis const& diagnosis, Ink const& ink) {
     }
     table.row({"error, train", "", share_cell(joint.train_relerr), share_cell(joint.augmented_train_relerr)});
     table.row(
-        {"error, unseen", "", share_cell(joint.validation_relerr), share_cell(joint.augmented_validation_relerr)});
+        {"error, validation", "", share_cell(joint.validation_relerr), share_cell(joint.augmented_validation_relerr)});
     add_left_out(table, "train", joint.train_left_out);
-    add_left_out(table, "unseen", joint.validation_left_out);
+    add_left_out(table, "validation", joint.validation_left_out);
     std::string const explained = share_text(joint.explained_share, joint.explained_low, joint.explained_high);
     if (!explained.empty()) table.row({"explained, held-out rows", "", "", explained});
-    text += ink.bold(fmt::format("model of {} (+- 95 %)", which_joint(joint))) + "\n" + table.text(page_width);
+    text += ink.bold(fmt::format("model of {} (+- 95 %)", which_joint(joint))) + "\n" + table.text(page_width());
   }
   return text;
 }

@@ -75,10 +75,10 @@ std::string axis_lines(std::vector<AxisLine> const& lines, CellZ z, bool utf8) {
     table.row({axis_title(axis->axis), two_digits(axis->cells.front().from), sparkline(*axis, z, utf8),
                two_digits(axis->cells.back().to) + " " + printable(axis->unit),
                std::isfinite(share) ? fmt::format("{:.0f} %", 100.0 * share) : ""});
-  std::string text = table.text(page_width);
+  std::string text = table.text(page_width());
   std::string const of = " of the residual";
   std::size_t const end = std::min(text.find('\n'), text.size());
-  if (!lines.empty() && columns_of(text.substr(0, end)) + columns_of(of) <= page_width) text.insert(end, of);
+  if (!lines.empty() && columns_of(text.substr(0, end)) + columns_of(of) <= page_width()) text.insert(end, of);
   return text;
 }
 
@@ -98,12 +98,12 @@ std::string where_text(JointDiagnosis const& joint, bool utf8) {
   std::stable_sort(found.begin(), found.end(), [](AxisLine const& a, AxisLine const& b) { return a.share > b.share; });
   std::string text = axis_lines(found, &MapCell::z, utf8);
   if (!found.empty())
-    text +=
-        hanging(std::string(lead_columns, ' '),
-                "%: energy that goes with this axis, beyond clean twins; axes overlap, so the shares need not add up");
+    text += hanging(
+        std::string(lead_columns, ' '),
+        "%: energy that goes with this axis, beyond the replicates; axes overlap, so the shares need not add up");
   std::size_t const quiet = joint.map.size() - found.size();
   if (quiet > 0)
-    text += fmt::format("{}{}{} {}: nothing beyond the clean twins\n", std::string(lead_columns, ' '), quiet,
+    text += fmt::format("{}{}{} {}: nothing beyond the replicates\n", std::string(lead_columns, ' '), quiet,
                         found.empty() ? "" : " more", quiet == 1 ? "axis" : "axes");
   return lead("where") + text.substr(lead_columns);
 }

@@ -83,8 +83,8 @@ std::string paper_tables(ResultSummary const& summary, Ink const& ink) {
       summary, "std dev", [](PaperColumn const& column) { return fmt::format("{:.3f}", column.standard_deviation); },
       [](EstimatorSummary const& estimator) { return fmt::format("{:.3f}", estimator.residual_std_median); }));
 
-  return ink.bold("Table 3 of the paper beside ours (mean of the runs)") + "\n" + table_3.text(page_width) +
-         ink.bold("Table 4 of the paper beside ours") + "\n" + table_4.text(page_width) +
+  return ink.bold("Table 3 of the paper beside ours (mean of the runs)") + "\n" + table_3.text(page_width()) +
+         ink.bold("Table 4 of the paper beside ours") + "\n" + table_4.text(page_width()) +
          hanging("  ",
                  "A table like the paper's cannot arise: on the data it was fitted to, nothing has a smaller squared "
                  "error than OLS, and no residual spreads wider than the root of its mean square (0.304 for OLS).");

@@ -75,7 +75,7 @@ std::string replay_text(Replay const& replay, Ink const& ink) {
                                   : ".\n\n");
   for (auto const& one : replay.recordings) {
     text += fmt::format("  {}{}\n    loop     {}\n", ink.name(printable(one.name)),
-                        one.is_validation ? " (unseen)" : "", drive_text(one));
+                        one.is_validation ? " (validation)" : "", drive_text(one));
     if (std::isfinite(one.horizon_s))
       text += fmt::format("    horizon  {:.4g} s: replicates then differ as much as simulation and recording\n",
                           one.horizon_s);

@@ -61,7 +61,8 @@ std::vector<Column> columns_of_result(ResultSummary const& summary) {
                        is_floor || rolls_out ? "" : gap, rolls_out ? short_number(estimator.gap_median) : ""});
     // sixty lines of "name error, name error" are nobody's table
     if (summary.arm && !estimator.standard_error.empty())
-      columns.push_back({"std. error", [&](std::size_t i) { return short_error(estimator.standard_error.at(i)); }});
+      columns.push_back({page_width() < widest_page ? "std. err" : "std. error",
+                         [&](std::size_t i) { return short_error(estimator.standard_error.at(i)); }});
   }
   return columns;
 }
@@ -98,12 +99,18 @@ class TableBlock {
   std::vector<int> widths_;
 };
 
+// of a column of numbers: a sign, four digits, an exponent and what parts it from its neighbour
+int cell_width(Column const& column) {
+  int const least = page_width() < widest_page ? 10 : 11;
+  return std::max(least, columns_of(column.title) + 2);
+}
+
 // as many columns as fit beside the names, at least one
 std::size_t fitting(std::vector<Column> const& columns, std::size_t begin, int room) {
   std::size_t count = 0;
   int used = 0;
   for (std::size_t c = begin; c < columns.size(); ++c, ++count) {
-    used += std::max(11, columns_of(columns[c].title) + 2);
+    used += cell_width(columns[c]);
     if (used > room && count > 0) break;
   }
   return count;
@@ -114,7 +121,7 @@ using Cells = std::vector<std::string>;
 std::string block_text(ResultSummary const& summary, std::vector<Column> const& columns, int name_width, int unit_width,
                        Ink const& ink) {
   std::vector<int> widths;
-  for (auto const& column : columns) widths.push_back(std::max(11, columns_of(column.title) + 2));
+  for (auto const& column : columns) widths.push_back(cell_width(column));
   TableBlock const block(name_width, unit_width, widths);
   auto const cells = [&](auto&& cell_of) {
     Cells row;
@@ -129,7 +136,7 @@ std::string block_text(ResultSummary const& summary, std::vector<Column> const& 
   std::string heading = pad_right(printable(summary.name), name_width + unit_width);
   std::string titles;
   for (std::size_t c = 0; c < columns.size(); ++c) titles += pad_left(columns[c].title, widths[c]);
-  if (columns_of(heading) + columns_of(titles) > page_width)
+  if (columns_of(heading) + columns_of(titles) > page_width())
     heading = printable(summary.name) + "\n" + std::string(static_cast<std::size_t>(name_width + unit_width), ' ');
   std::string text = ink.bold(heading + titles) + "\n";
 
@@ -139,7 +146,7 @@ std::string block_text(ResultSummary const& summary, std::vector<Column> const& 
   text += block.line("MSE", squared_unit(summary), cells([](Column const& c) { return c.mse; }));
   if (summary.has_validation) {
     text += block.line("error, train", "%", cells([](Column const& c) { return c.train; }));
-    text += block.line("error, unseen", "%", cells([](Column const& c) { return c.unseen; }));
+    text += block.line("error, validation", "%", cells([](Column const& c) { return c.unseen; }));
   }
   if (has(&Column::gap)) text += block.line(gap_title(summary), "", cells([](Column const& c) { return c.gap; }));
   if (has(&Column::fitness)) text += block.line("fitness", "", cells([](Column const& c) { return c.fitness; }));
@@ -206,7 +213,7 @@ std::string result_table(ResultSummary const& summary, Ink const& ink) {
   auto const columns = columns_of_result(summary);
   std::string text;
   for (std::size_t begin = 0; begin < columns.size();) {
-    std::size_t const count = fitting(columns, begin, page_width - name_width - unit_width);
+    std::size_t const count = fitting(columns, begin, page_width() - name_width - unit_width);
     auto const first = columns.begin() + static_cast<std::ptrdiff_t>(begin);
     std::vector<Column> const shown(first, first + static_cast<std::ptrdiff_t>(count));
     text += (begin ? "\n" : "") + block_text(summary, shown, name_width, unit_width, ink);
@@ -229,7 +236,7 @@ std::string estimator_lines(ResultSummary const& summary, Ink const& ink) {
     table.row({column_title(estimator), rough_number(estimator.gap_median), rough_number(estimator.gap_lower_quartile),
                rough_number(estimator.gap_upper_quartile), rough_number(estimator.gap_best),
                rough_number(estimator.gap_worst), ""});
-  std::string text = table.text(page_width);
+  std::string text = table.text(page_width());
   for (auto const& estimator : summary.estimators)
     text += hanging(fmt::format("  {} ended by ", column_title(estimator)), reasons_text(estimator.stop_reasons));
   return ink.bold("estimators") + "\n" + text;
@@ -241,7 +248,7 @@ std::string origin_lines(ResultSummary const& summary, Ink const& ink) {
   text += hanging("  job      ",
                   fmt::format("{}, seed {}, sha256 {:.16}", printable(summary.name), summary.seed, summary.job_sha256));
   text += hanging("  data     ", data_text(summary.train));
-  if (summary.has_validation) text += hanging("  unseen   ", data_text(summary.validation));
+  if (summary.has_validation) text += hanging("  valid.   ", data_text(summary.validation));
   if (!summary.equation.empty()) text += hanging("  model    ", printable(summary.equation));
   bool const known = !made.host.empty();
   text += hanging("  machine  ", known ? fmt::format("{}; {} threads ({}), {}", printable(made.host), made.threads,

@@ -29,7 +29,7 @@ std::string frames_text(RobotDescription const& robot) {
     table.row({std::to_string(i + 1), printable(joint.name), joint.kind, cell_text(joint.alpha), cell_text(joint.a),
                cell_text(joint.offset), cell_text(joint.d)});
   }
-  return table.text(page_width);
+  return table.text(page_width());
 }
 
 // columns that the file fills for at least one joint
@@ -61,7 +61,7 @@ std::string limits_text(RobotDescription const& robot) {
     for (auto const& column : columns) cells.push_back(cell_text(robot.joints[i].*column.member));
     table.row(cells);
   }
-  return "\n" + hanging("", "limits and drives (rad, m, N m, s, kg; at the joint)") + table.text(page_width);
+  return "\n" + hanging("", "limits and drives (rad, m, N m, s, kg; at the joint)") + table.text(page_width());
 }
 
 std::string parameters_text(RobotDescription const& robot) {
@@ -72,7 +72,7 @@ std::string parameters_text(RobotDescription const& robot) {
   TextTable table({Align::left, Align::left, Align::left}, "  ");
   for (auto const& parameter : robot.parameters)
     table.row({parameter.name, parameter.unit, parameter.sum == parameter.name ? "" : "= " + parameter.sum});
-  text += table.text(page_width);
+  text += table.text(page_width());
   if (!robot.without_effect.empty())
     text += hanging("  no torque depends on  ", fmt::format("{}", fmt::join(robot.without_effect, ", ")));
   return text;

@@ -95,7 +95,7 @@ std::string servo_text(ServoReport const& report, bool all) {
   for (auto const& table : report.tables) text += "\n" + table_text(table);
   if (!report.tables.empty()) text += "  errors in mrad\n";
   if (!report.left_out.empty())
-    text += "  left out: the laws are those chosen on all, their numbers are fitted without these recordings\n";
+    text += "  left out: the effects are those chosen on all, their numbers are fitted without these recordings\n";
   if (all) text += "\n" + recordings_text(report);
   for (auto const& remark : report.notes) text += "\n  " + sentence_of(remark) + "\n";
   return text;

@@ -9,7 +9,7 @@ namespace torquescope {
 std::string environment(char const* name);  // "" when unset
 
 bool is_terminal(int descriptor);
-// columns of the terminal behind `descriptor`, at most page_width, measured now (windows are resized); 80 when unknown
+// columns of the terminal behind `descriptor`, at most widest_page, measured now (windows are resized); 80 when unknown
 int terminal_width(int descriptor);
 // whether bars and marks may leave ASCII: the locale's codeset is UTF-8
 bool locale_is_utf8();

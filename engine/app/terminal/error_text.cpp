@@ -12,7 +12,7 @@ namespace torquescope {
 namespace {
 
 constexpr std::size_t most_shown = 20;
-constexpr int code_column = 75;  // where "[78]" ends
+constexpr int beside_code = 5;  // columns of the page to the right of "[78]"
 
 std::string spaces(int count) { return std::string(static_cast<std::size_t>(std::max(0, count)), ' '); }
 
@@ -20,6 +20,7 @@ std::string spaces(int count) { return std::string(static_cast<std::size_t>(std:
 std::string headline(Problem const& problem, Ink const& ink) {
   std::string const lead = problem.code == ExitCode::stopped ? "" : "error: ";
   std::string const code = fmt::format("[{}]", static_cast<int>(problem.code));
+  int const code_column = page_width() - beside_code;
   int const width = code_column - columns_of(code) - 1;
   auto const lines = wrap(printable(problem.what), width - columns_of(lead), width - columns_of(lead));
   std::string text;
@@ -58,7 +59,7 @@ std::string source_excerpt(Problem const& problem, Ink const& ink) {
   std::string const number = fmt::format("{}", place.line);
   std::string const gutter = spaces(columns_of(number)) + " | ";
   std::string line = printable(place.line_text);
-  int const room = page_width - columns_of(gutter);
+  int const room = page_width() - columns_of(gutter);
   int caret = std::clamp(place.column - 1, 0, columns_of(line));
   int length = std::clamp(place.length, 1, std::max(1, columns_of(line) - caret));
 

@@ -8,7 +8,7 @@
 //        | ^^^^^^^^ did you mean "cutoff_hz"?
 //       help: ...
 //
-// Width      page_width; a longer source line is cut around its caret
+// Width      page_width(); a longer source line is cut around its caret
 // Limit      20 problems at most, then their count
 
 #include <string>

@@ -11,7 +11,9 @@
 
 namespace torquescope {
 
-inline constexpr int page_width = 80;  // no line of ours is longer, however wide the window is
+inline constexpr int widest_page = 80;  // no line of ours is longer, however wide the window is
+// columns that a line of ours may take, 40 to widest_page: of COLUMNS, else of the window behind standard output
+int page_width();
 
 // control characters and broken UTF-8 become '?', tabs one space: a job or a recording must not steer the terminal
 std::string printable(std::string_view text);
@@ -23,7 +25,7 @@ int columns_of(std::string_view utf8);  // escape sequences of Ink do not count
 std::vector<std::string> wrap(std::string const& text, int first_width, int width);
 
 // `text` wrapped to the page behind `lead`, further lines below its end: "  help: write ...\n"; ends with a line feed
-std::string hanging(std::string const& lead, std::string const& text, int width = page_width);
+std::string hanging(std::string const& lead, std::string const& text, int width = page_width());
 
 // of a paragraph of a diagnosis: "where  ", "what   ", "why    ", "next   "
 inline constexpr int lead_columns = 7;

@@ -79,8 +79,8 @@ std::optional<double> seconds_left_in_all(ProgressUpdate const& update, double s
 }
 
 std::string progress_line(ProgressUpdate const& update, double seconds_in_all) {
-  std::string line = fmt::format("progress stage={} runs={}/{}", printable(update.stage), update.runs_done,
-                                 update.runs_total);
+  std::string line =
+      fmt::format("progress stage={} runs={}/{}", printable(update.stage), update.runs_done, update.runs_total);
   if (update.evaluations_total > 0)
     line += fmt::format(" evals={}/{}", update.evaluations_done, update.evaluations_total);
   auto const left = seconds_left_in_all(update, seconds_in_all);

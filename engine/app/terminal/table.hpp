@@ -2,6 +2,7 @@
 // Rows of text in aligned columns, as wide as their widest cell.
 //
 // Column 0 is left-aligned, the others as their Align says; columns are two spaces apart. The last column may wrap.
+// Narrow      columns that the page has no room for go below the others, further in, row by row
 
 #include <string>
 #include <vector>
@@ -21,6 +22,14 @@ class TextTable {
   std::string text(int width) const;
 
  private:
+  // columns [begin, end) that stand side by side
+  struct Band {
+    std::size_t begin, end;
+  };
+  std::vector<Band> bands(std::vector<int> const& widths, int width) const;
+  std::string line_of(std::vector<std::string> const& cells, Band band, std::vector<int> const& widths,
+                      int width) const;
+
   std::vector<Align> columns_;
   std::string indent_;
   std::vector<std::vector<std::string>> rows_;

@@ -27,7 +27,7 @@ from .result import Result
 from .robot import Robot
 from .waiting import wait_for
 
-UNNAMED = "<job>"  # stands in messages where a job is no file
+UNNAMED = "<job>"  # a job that is no file: messages show no line of it (engine/python/module.cpp)
 Path = Union[str, "os.PathLike[str]"]
 Recordings = Union[Recording, Iterable[Recording]]
 Model = Union[Mapping[str, Any], Robot, None]
@@ -58,8 +58,19 @@ def diagnose(recordings: Recordings | Path, *, validate: Recordings = (), model:
     """Finds the physics that a model of the recordings lacks.
 
     recordings  a Recording, several (one fit to all of them, each in its own loop), or a job file
-    validate    recordings that no fit sees: they judge
-    model       {"joint": "revolute", "terms": [...]}, or a Robot
+    validate    recordings that no fit uses: they judge
+    model       {"joint": "revolute", "terms": [...]}, or a Robot; ts.describe() lists terms and effects
+    out         file of the result; None: it lives as long as what is returned
+    threads     0: all processors
+    progress    None: shown in a terminal and a notebook
+    sections    of a job: filter={"cutoff_hz": 40}, diagnose={"effects": ["stribeck", "cogging"]}
+
+    Example     found = ts.diagnose(motion, validate=other, model={"terms": ["inertia", "viscous", "coulomb"]})
+                found.verdict, found.reason, found.effects[0].parameters["stribeck"].value
+    Units       SI of the joint: rad or m, s, N m or N; where the factor of a current is not known, the current's
+    Shares      errors and shares are fractions of 1; intervals are 95 %; NaN: not measured
+    Errors      JobError, DataError, UsageError, with every problem at once; Ctrl-C stops after the running step
+    Takes       seconds to minutes
     """
     order = _order(recordings, validate, model, None, sections)
     return _carry_out(order, True, out, threads, progress)
@@ -68,7 +79,13 @@ def diagnose(recordings: Recordings | Path, *, validate: Recordings = (), model:
 def identify(recordings: Recordings | Path, *, validate: Recordings = (), model: Model = None,
              estimators: Estimators = "ols", out: Path | None = None, threads: int = 0, progress: bool | None = None,
              **sections: Section) -> Result:
-    """Fits the parameters of a model: estimators are names ("ols", "wls", "fade") or {"name": "de", ...}."""
+    """Fits the parameters of a model to recordings; arguments, units and errors as of diagnose().
+
+    estimators  names ("ols", "wls", "fade"), or {"name": "de", "runs": 20}
+
+    Example     fit = ts.identify(motion, model={"terms": ["inertia", "viscous", "coulomb", "offset"]})
+                fit.parameters["inertia"].value, fit.parameters["inertia"].lower
+    """
     order = _order(recordings, validate, model, estimators, sections)
     return _carry_out(order, False, out, threads, progress)
 

@@ -28,12 +28,12 @@ class Plots:
         return {name: case.title for name, case in self._cases.items()}
 
     def map(self, joint=1, narrow=False):
-        """Of a diagnosis: where the residual is not what clean twins have, along every axis."""
+        """Of a diagnosis: where the residual is not what replicates have, along every axis."""
         return self(self._of_joint(joint, "mismatch_map"), narrow)
 
     def trace(self, number=None, joint=1, narrow=False):
         """Torque over time, and what models leave of it: of a diagnosis of its number-th recording (the last, where
-        none is given), of a run of the unseen recording, or the training one, beside its simulation where nothing
+        none is given), of a run of the validation recording, or the training one, beside its simulation where nothing
         else was fitted."""
         if self._study.diagnosis:
             traces = self._study_joint(joint).traces

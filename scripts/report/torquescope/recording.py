@@ -24,11 +24,14 @@ WITHOUT = {
 class Recording:
     """Signals [n] of one joint, or [n][joints] of an arm; time [n] is shared. A column [n][1] is a signal [n].
 
+    Example    motion = ts.Recording(time=t, position=q, torque=tau, reference=q_ref, name="elbow")
     Units      s; rad or m; rad/s, rad/s2; N m or N. In other units give what one of theirs is, with the keys of a
                job's [recording]: Recording(..., torque_per_unit=0.105), position_per_unit, time_per_unit, ...
     Missing    NaN, or masked (numpy.ma, as netCDF4 reads); gaps="fill" fills up to five in a row
     Without    time: rate_hz=. Without a reference (the commanded position) small effects are not found
     joint      what sentences call it: "the joint of elbow"
+    Has        len(motion), motion.joints, motion.position and the other signals, motion.to_frame()
+    Errors     UsageError: neither time nor rate_hz; DataError: shapes that differ, no position, what is no number
     """
 
     def __init__(self, *, position: ArrayLike, torque: ArrayLike | None = None, time: ArrayLike | None = None,
@@ -49,7 +52,11 @@ class Recording:
     def from_file(cls, path: str | os.PathLike[str], joint: int | str = "", **options: Any) -> Recording:
         """A file of any format that the program reads; columns and units are guessed as `torquescope init` does, and
         .remarks says how. joint: of a file with several, its name, or its number from 1. Further options are keys of
-        [recording]."""
+        [recording]. Values are as in the file: torque_per_unit and its kin come with them.
+
+        Example    ts.Recording.from_file("mine.csv", columns={"torque": "current_A"}, torque_per_unit=0.105)
+        Errors     DataError: no such file or column, no position or torque found
+        """
         _engine = compiled()
         text, guesses, warnings = _engine.draft_job(os.fspath(path), str(joint) if joint else "")
         drafted = _toml(text)["recording"]

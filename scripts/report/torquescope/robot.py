@@ -24,11 +24,13 @@ class RobotJoint:
 
 
 class Robot:
-    """An arm for `model=`: ts.identify(motion, model=ts.Robot.from_urdf("arm.urdf")).
+    """An arm for `model=`, of a URDF, xacro, MJCF or TOML file.
 
+    Example     arm = ts.Robot("arm.urdf"); found = ts.diagnose(motion, model=arm); motion: signals [n][joints]
     Attributes  name, mass (kg; 0: the file gives none), joints [RobotJoint], parameters {name: (sum, unit)} (the base
                 parameters, and what each gathers), remarks [sentence], path
-    Errors      those of the engine: a file that is no robot, a tree that branches
+    Units       kg, m, rad, s, N m and N, at the joint
+    Errors      torquescope.errors.Error and its kinds: no such file, a file that is no robot, a tree that branches
     """
 
     def __init__(self, path: str | os.PathLike[str]):

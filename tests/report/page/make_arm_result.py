@@ -90,7 +90,7 @@ def write_estimator(group, title, found, train, unseen, rows):
 
 
 def arm(path):
-    """Simulated, truth known, with an unseen motion; of the robot file's inertias one is another."""
+    """Simulated, truth known, with a validation motion; of the robot file's inertias one is another."""
     train, unseen = rows_of(5, TRUTH), rows_of(15, TRUTH)
     with h5py.File(path, "w") as file:
         file.attrs.update({"format": 2, "complete": 1, "creator": "torquescope 0.1.0",

@@ -110,7 +110,7 @@ def alone(path, write):
 
 
 def three_models(file):
-    """Two recordings, the training one first in the file; the unseen one is believed for 21 s, and your simulator
+    """Two recordings, the training one first in the file; the validation one is believed for 21 s, and your simulator
     says nothing of its torque there."""
     group = replay_group(file, MODELS, 0, 1)
     write_recording(group.create_group("recording_1"), "lab_1.csv", "train", 200, recording(20, 200, 1, 3))
@@ -147,7 +147,7 @@ def all_diverged(file):
 
 
 def four_recordings(file):
-    """Two training ones of a minute at 1 kHz, two unseen ones: one by the drive's command, one whose model says
+    """Two training ones of a minute at 1 kHz, two validation ones: one by the drive's command, one whose model says
     nothing of the torque."""
     group = replay_group(file, MODELS[:2], 0, 1)
     minute = recording(60, 1000, 5, 2)
@@ -195,7 +195,7 @@ def add_parameters(file):
 
 
 def errors_of(file, label, purpose, channel):
-    """(mse, relerr, residual's mean and standard deviation, samples) over all samples of these recordings."""
+    """(mse, relative error, residual's mean and standard deviation, samples) over all samples of these recordings."""
     replay = file["replay"]
     at = [name.decode() for name in replay.attrs["models"]].index(label)
     ones = [one for one in replay.values() if one.attrs["purpose"] == purpose.encode()]

@@ -391,7 +391,7 @@ def crs(path, validate=True, estimators=(("ols", "ols", "OLS"), ("de", "de", "DE
         joint="revolute",
         truth=SEED_OLS,
         train=[part("simulated", 10, 3, True)],
-        validate=[part("simulated, unseen", 10, 11, False)] if validate else None,
+        validate=[part("simulated, validation", 10, 11, False)] if validate else None,
         rate_hz=200.0,
         warnings=["separable: coulomb_positive and the offset in it cannot be told apart by this model"],
         health_words="",
@@ -401,7 +401,7 @@ def crs(path, validate=True, estimators=(("ols", "ols", "OLS"), ("de", "de", "DE
 
 
 def prismatic(path):
-    """A real-looking slide: only OLS, nothing unseen, two recordings, warnings."""
+    """A real-looking slide: only OLS, no validation recording, two recordings, warnings."""
     truth = np.array([95.1, 203.5, 20.4 + 3.1, -20.4 + 3.1])
     parts = []
     for number, seed in enumerate((5, 6)):

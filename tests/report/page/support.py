@@ -48,7 +48,7 @@ PAGES = os.environ.get("TORQUESCOPE_PAGES")
 VERDICTS = (
     ("named", "class", "partly", "none", "unexplained", "insufficient", "data_fault") if EXAMPLE_WRITER else ()
 )
-VARIED = every_time(vary_diagnosis.KINDS, "minute") if EXAMPLE_WRITER else ()
+VARIED = every_time(vary_diagnosis.KINDS, "minute", "two_joints") if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
 REPLAYS = every_time(make_replay.ALONE, "replayed", "replayed_once")  # of `torquescope replay`
 ROLLED = every_time(make_replay.ROLLED, "rolled", "rolled_several")  # of estimators that fit simulations

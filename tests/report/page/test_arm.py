@@ -31,8 +31,8 @@ class Arm(unittest.TestCase):
         error = study.estimators[1].validation_relerr_median
         verdict = words_of_arm.verdict(study)
         self.assertEqual(verdict["word"], "Identified")
-        self.assertEqual(verdict["sentence"], "Ten parameters of two joints reproduce the torques of an unseen motion "
-                                              f"to within {100 * error:.2f} %.")
+        self.assertEqual(verdict["sentence"], "Ten parameters of two joints reproduce the torques of a validation "
+                                              f"motion to within {100 * error:.2f} %.")
 
     def test_every_joint_has_its_picture_and_every_parameter_its_row(self):
         study = support.study("arm")
@@ -94,7 +94,7 @@ class Arm(unittest.TestCase):
         study = changed(change)
         self.assertIn("the training motion", words_of_arm.verdict(study)["sentence"])
         self.assertIn("joint_torque_2", all_cases(study))
-        self.assertNotIn("WLS, unseen", tables_of_arm.errors(study)["head"])
+        self.assertNotIn("WLS, validation", tables_of_arm.errors(study)["head"])
 
 
 if __name__ == "__main__":

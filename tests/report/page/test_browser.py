@@ -19,11 +19,13 @@ except ImportError:
 
 ALL = (support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS + support.COMPARED + support.REPLAYS
        + support.BESIDE + support.ROLLED + support.SERVOS)
-KINDS = tuple(kind for kind in ALL if support.FULL or kind in ("crs", "arm", "named", "unexplained", "minute", "board",
-                                                           "compared", "replayed", "rolled", "servo"))
+DRAWN = ("crs", "arm", "named", "unexplained", "minute", "two_joints", "board", "compared", "replayed", "rolled",
+         "servo")
+KINDS = tuple(kind for kind in ALL if support.FULL or kind in DRAWN)
 FEWEST_FIGURES = {"arm": 6, "insufficient": 5, "board_few": 1, "compared": 1,
                   **{kind: 1 for kind in support.REPLAYS}, "servo_none": 1, "servo_ran_away": 0}
-WIDTHS, THEMES = (1280, 400), ("light", "dark")
+WIDTHS, THEMES = (1280, 800, 400), ("light", "dark")
+TALLEST_OF_JOINTS_PX = 6000  # of the joints of an arm on a phone, as the page opens
 LEAST_TEXT_PX = 10.5
 MOST_BYTES = 3e6
 MANY_BYTES = {"servo_60": 6e6}  # sixty recordings
@@ -102,6 +104,28 @@ class Page(browser.Browser):
                         self.assertEqual(found[law], [], law)
                     self.assertEqual(found["scroll"], found["inner"])
                     self.assertEqual(self.browser.get_log("browser"), [])
+
+    @support.needs_diagnoses
+    def test_joints_are_folded_and_those_that_lack_something_come_first(self):
+        self.open("two_joints", 400)
+        self.assertLess(self.script("return document.documentElement.scrollHeight"), TALLEST_OF_JOINTS_PX)
+        first, second = (one.text for one in self.browser.find_elements(By.CSS_SELECTOR, "section.joint"))
+        self.assertIn("Joint 2\n● Missing physics named", first)
+        self.assertIn("Joint 1\n○ Nothing missing", second)
+        opened = "return [...document.querySelectorAll('details.of-joint')].map((e) => e.open)"
+        self.assertEqual(self.script(opened), [False, False])
+        self.browser.find_element(By.CSS_SELECTOR, "details.of-joint > summary").click()
+        self.assertEqual(self.script(opened), [True, False])
+        self.assertTrue(self.browser.find_element(By.ID, "mismatch_map_joint_2").is_displayed())
+
+    @support.needs_diagnoses
+    def test_measured_and_predicted_torque_stand_first(self):
+        self.open("named", 800)
+        figures = self.script("return [...document.querySelectorAll('figure')].map((e) => e.id)")
+        self.assertEqual(figures[0], "trace_1")
+        legend = self.browser.find_element(By.CSS_SELECTOR, "#trace_1 .keys").text
+        for label in ("measured", "predicted before", "predicted after"):
+            self.assertIn(label, legend)
 
     def test_no_colour_is_baked_in(self):
         for kind in KINDS:

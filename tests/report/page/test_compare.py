@@ -54,6 +54,13 @@ class Compare(unittest.TestCase):
         self.assertEqual(found["inertia"][2], found["inertia"][3])
         self.assertIn("One of four parameters differs by more than the 95 % intervals say.", text)
 
+    def test_results_of_different_joints_are_said_to_be_so(self):
+        def slide(file):
+            file["model"].attrs["joint"] = np.bytes_("prismatic")
+        text = compare.page([support.result("crs"), beside("crs", "slide", slide)])
+        self.assertIn("These are results of different joints: a revolute joint; a prismatic joint.", text)
+        self.assertNotIn("different joints", compare.page([support.result("crs"), beside("crs", "moved", moved)]))
+
     def test_files_of_one_name_have_labels_that_tell_them_apart(self):
         paths = [support.result("crs"), beside("crs", "monday"), beside("crs", "tuesday")]
         labels = [side.label for side in compared.sides(paths)]
@@ -75,7 +82,7 @@ class Compare(unittest.TestCase):
         self.assertEqual(facts["verdict"][:2], ["● Missing physics named", "○ Nothing missing"])
         self.assertTrue(facts["verdict"][2].startswith("identified"))
         named = support.study("named").diagnosis.joints[0]
-        self.assertIn(f"{100 * named.augmented_validation_relerr:.1f}"[:2], facts["error unseen"][0])
+        self.assertIn(f"{100 * named.augmented_validation_relerr:.1f}"[:2], facts["error, validation"][0])
         effects = {row[0]: row[1:] for row in self.cells(text, "Effects that one of them names")}
         self.assertRegex(effects["Stribeck friction"][0], "^◍ named or friction that builds up")
         self.assertTrue(effects["Stribeck friction"][1].startswith("○"))

@@ -177,15 +177,15 @@ class Verdict(unittest.TestCase):
         verdict = words_of_diagnosis.verdict(support.study("named"))
         self.assertEqual(
             verdict["sentence"],
-            "Stribeck friction 0.35 N m [0.34, 0.37], stribeck_speed 0.060 rad/s [0.055, 0.065] | presliding; "
-            "cogging 0.060 N m [0.057, 0.062], cogging_order 12 1/rad [12, 12]   p < 0.005",
+            "Stribeck friction 0.35 N m [0.34, 0.37], speed 0.060 rad/s [0.055, 0.065] or presliding; "
+            "cogging 0.060 N m [0.057, 0.062], 12 a turn, p < 0.005",
         )
         evidence = verdict["evidence"].replace("\u00a0", " ")
         for words in (
             "Stribeck friction (p < 0.005; presliding cannot be excluded).",
             "cogging torque of the motor (p < 0.005).",
             "floor 6.0 %.",
-            "200 clean twins",
+            "200 simulated replicates",
         ):
             self.assertIn(words, evidence)
 
@@ -223,7 +223,7 @@ class Verdict(unittest.TestCase):
         self.assertEqual(words_of_diagnosis.big_numbers(whole),
                          [("20 → 15 %", "", "error in training, all samples"),
                           ("30 → 25 %", "", "error in validation, all samples"),
-                          ("0", "of 200", "clean twins look like this")])
+                          ("0", "of 200", "simulated replicates look like this")])
 
     def test_headlines_are_short(self):
         for kind in support.DIAGNOSES:
@@ -238,11 +238,11 @@ class Verdict(unittest.TestCase):
         )
         below = dataclasses.replace(at_floor, augmented_validation_relerr=0.041)
         self.assertIn(
-            ("about 4.9 %", "", "floor, as clean twins have it on average: the error is below"),
+            ("about 4.9 %", "", "floor, as replicates have it on average: the error is below"),
             words_of_diagnosis.big_numbers(below),
         )
         self.assertIn(
-            "4.1 % after, at the floor (about 4.9 %: what clean twins leave on average)",
+            "4.1 % after, at the floor (about 4.9 %: what replicates leave on average)",
             words_of_diagnosis.fit_answer(support.study("named"), below),
         )
         self.assertEqual(diagnosed.share_closed(at_floor), 1.0)
@@ -322,7 +322,6 @@ class Verdict(unittest.TestCase):
         for kind in support.VERDICTS:
             self.assertEqual(re.findall(r"\bsignificant|\blikely|\bAI\b", read_by_a_person(kind)), [], kind)
 
-    @unittest.skipUnless(support.FULL, "a large page that no job makes yet: scripts/test --full")
     def test_two_joints_have_two_of_everything(self):
         text = support.page("two_joints").read_text(encoding="utf-8")
         self.assertEqual(text.count('id="mismatch_map_joint_'), 2)

@@ -99,7 +99,7 @@ class Numbers(unittest.TestCase):
     def test_the_table_has_the_numbers_of_the_file(self):
         rows = iter(table("replayed"))
         with h5py.File(support.result("replayed"), locking=False) as file:
-            for number, called in ((2, "lab_2.csv, unseen"), (1, "lab_1.csv, training")):
+            for number, called in ((2, "lab_2.csv, validation"), (1, "lab_1.csv, training")):
                 one = file[f"replay/recording_{number}"]
                 for name in ("position", "velocity", "torque"):
                     (rms, mae, relerr), samples = (one[name][key][()] for key in ("rms", "mae", "relerr")), (
@@ -129,15 +129,15 @@ class Numbers(unittest.TestCase):
     def test_every_model_has_its_errors_in_the_table(self):
         rows = {(row[0], row[1]): row for row in table("rolled_several")}
         one = support.study("rolled_several").replay.recordings[2]
-        self.assertEqual(rows["lab_3.csv, unseen", "torque, fade (N m)"][3:6],
+        self.assertEqual(rows["lab_3.csv, validation", "torque, fade (N m)"][3:6],
                          [q.number(one.torque.rms[1]), q.number(one.torque.mae[1]), q.percent(one.torque.relerr[1])])
-        self.assertEqual(rows["lab_3.csv, unseen", "torque (N m)"][3],
+        self.assertEqual(rows["lab_3.csv, validation", "torque (N m)"][3],
                          f"{q.number(one.torque.rms[0])} → {q.number(one.torque.rms[2])}")
 
     def test_the_title_has_the_error_of_the_unseen_recording(self):
         error = support.study("replayed").replay.recordings[1].position.relerr
         self.assertEqual(words_of_replay.verdict(support.study("replayed"))["sentence"],
-                         "On the unseen recording lab_2.csv the simulated position is off by "
+                         "On the validation recording lab_2.csv the simulated position is off by "
                          f"{q.percent(error[0])} as identified, {q.percent(error[1])} with what was named and "
                          f"{q.percent(error[2])} in your simulator.")
 
@@ -173,7 +173,8 @@ class Captions(unittest.TestCase):
     def test_they_say_which_samples_which_loop_and_until_when(self):
         self.assertEqual(self.caption("replayed", 1),
                          "Simulated in closed loop from the commanded position: all 6000 samples at 200 Hz. The loop "
-                         "is a PD law with friction feed-forward, identified from the recording. The loop’s law leaves "
+                         "is a PD law with friction feed-forward, identified from the recording. The loop’s controller "
+                         "leaves "
                          "3.1 % of the recorded torque. Believe it until 21 s; what comes after is shaded.")
         self.assertTrue(self.caption("replayed", 0).endswith("It can be believed to its end."))
 

@@ -119,7 +119,7 @@ class Words(unittest.TestCase):
     def test_the_title_counts_what_was_fitted_and_has_the_error_of_the_simulation(self):
         e = of_lm("rolled")
         self.assertEqual(words.verdict(support.study("rolled"))["sentence"],
-                         "Nine parameters, simulated in closed loop, reproduce an unseen torque to within "
+                         "Nine parameters, simulated in closed loop, reproduce a validation torque to within "
                          f"{q.percent(e.validation_relerr_median)}.")
 
     def test_the_evidence_is_of_all_samples_and_names_the_bounds(self):
@@ -131,7 +131,7 @@ class Words(unittest.TestCase):
 
     def test_without_a_reference_errors_are_of_the_position(self):
         study = support.study("rolled_windows")
-        self.assertIn("reproduce an unseen position to within", words.verdict(study)["sentence"])
+        self.assertIn("reproduce a validation position to within", words.verdict(study)["sentence"])
         self.assertIn(" rad of the position (standard deviation) on 2700 samples, simulated from the recorded torque, "
                       "in windows.", words.verdict(study)["evidence"])
         self.assertIn("Does the model follow the position?", said("rolled_windows"))
@@ -148,7 +148,8 @@ class Words(unittest.TestCase):
         self.assertEqual(study.lead, study.ols)
         lm = of_lm("rolled_several")
         self.assertIn(f"LM: {q.percent(lm.relerr_median)} relative error of the torque in training, "
-                      f"{q.percent(lm.validation_relerr_median)} unseen, over all samples, simulated in closed loop.",
+                      f"{q.percent(lm.validation_relerr_median)} in validation, over all samples, simulated in "
+                      "closed loop.",
                       words.fit_answer(study))
         self.assertRegex(words.verdict(study)["sentence"], "^DE (arrives|stops)", "of searches in rows alone")
         self.assertNotIn("(FADE)", words.verdict(study)["evidence"])

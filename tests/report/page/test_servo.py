@@ -47,7 +47,7 @@ class Order(unittest.TestCase):
         self.assertEqual([one or other for one, other in found], [
             "Does the simulated servo move as the recorded one did?", "12 training recordings",
             "The errors of 18 recordings as a table", "What does the model lack?", "How large are the errors?",
-            "Do the laws hold where no number was fitted?", "All parameters", "Notes", "Every law that was tried",
+            "Do the effects hold where no number was fitted?", "All parameters", "Notes", "Every effect that was tried",
             "The job file", "Where this page comes from"])
 
     def test_validation_recordings_come_first_the_worst_of_them_at_the_top(self):
@@ -155,7 +155,8 @@ class Tables(unittest.TestCase):
 class Kinds(unittest.TestCase):
     def test_nothing_missing_has_no_after(self):
         said = read("servo_none")
-        for text in ("Nothing is missing", "No law of drive or gear was kept.", 'No recording has role = "validate".'):
+        for text in ("Nothing is missing", "No effect of drive or gear was kept.",
+                     'No recording has role = "validate".'):
             self.assertIn(text, said)
         for text in ("validation", "after", "before"):
             self.assertNotIn(f" {text} ", said)

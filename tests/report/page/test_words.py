@@ -135,8 +135,8 @@ class LeftOut(unittest.TestCase):
                            validation_relerr_all_rows=0.46, augmented_validation_relerr_all_rows=0.42)
         self.assertEqual(
             words_of_diagnosis.left_out_note(joint),
-            "Left out of these errors near reversals, at rest or outside the motion of training, unseen: 71 % of the "
-            "time with 98 % of the residual's energy; error over all rows 46 % before, 42 % after.")
+            "Left out of these errors near reversals, at rest or outside the motion of training, validation: 71 % of "
+            "the time with 98 % of the residual's energy; error over all rows 46 % before, 42 % after.")
         self.assertTrue(diagnosed.looks_at_less_than_half(joint))
 
     def test_nothing_is_told_where_nothing_is_left_out(self):

@@ -48,12 +48,17 @@ def a_minute_at_1_khz(file):
 
 
 def two_joints(file):
-    """The second has a recording of its own beside the first one's kind, and no unseen one."""
+    """The first lacks nothing; the second has a recording of its own beside the first one's kind, and no validation
+    recording. The job has a name of ten thousand letters."""
     found = file["diagnosis"]
     found.copy("joint_1", "joint_2")
     found.attrs["joints"] = np.int64(2)
     found["joint_2"].attrs["joint"] = np.int64(2)
     found["joint_2"].copy("traces/trace_1", "traces/trace_2")
+    for joint, verdict in (("joint_1", "none"), ("joint_2", "named")):
+        found[joint].attrs["verdict"] = np.bytes_(verdict)
+        found[joint].attrs["reason"] = np.bytes_(f"What is said of {joint}.")
+    file["job"].attrs["name"] = np.bytes_("x" * 10000)
 
 
 def hardly_measured(file):

@@ -51,10 +51,10 @@ class DiagnoseCommand : public ::testing::Test {
     ChosenCommand chosen;
     add_diagnose(app, chosen, [this](auto const& experiment, auto const& request, auto const& progress) {
       ++diagnosed;
-      progress({"twins", 100, 200, 0, 0, 7.0, "twins"});
-      progress({"twins", 200, 200, 0, 0, 14.0, "twins"});
+      progress({"replicates", 100, 200, 0, 0, 7.0, "replicates"});
+      progress({"replicates", 200, 200, 0, 0, 14.0, "replicates"});
       progress({"search", 34, 34, 0, 0, 8.8, "effects"});
-      progress({"twins", 200, 200, 0, 0, 7.4, "twins"});  // again, with what was named
+      progress({"replicates", 200, 200, 0, 0, 7.4, "replicates"});  // again, with what was named
       Diagnosis const diagnosis = diagnose_into_file(experiment, request, [this] { return found; });
       if (is_second) throw Error(Problem{ExitCode::stopped, "another one has written the result"});
       return diagnosis;
@@ -114,8 +114,8 @@ TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
   EXPECT_THAT(outcome.out, HasSubstr("\nnext   "));
   EXPECT_THAT(outcome.out, Not(HasSubstr("wrote")));
   EXPECT_THAT(outcome.err, HasSubstr("4 parameters; "));
-  EXPECT_THAT(outcome.err, HasSubstr("baseline 4 parameters; error 11.8 % train, 12.1 % unseen\n"));
-  EXPECT_THAT(outcome.err, HasSubstr("\ntwins    400 twins, "));
+  EXPECT_THAT(outcome.err, HasSubstr("baseline 4 parameters; error 11.8 % train, 12.1 % validation\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("\nreplicates 400 replicates, "));
   EXPECT_THAT(outcome.err, HasSubstr("\nsearch   34 effects, "));
   EXPECT_THAT(outcome.err, HasSubstr("\nwrote  "));
 }
@@ -187,7 +187,8 @@ TEST_F(DiagnoseCommand, SaysWhatIsLeftOutBesideTheErrors) {
   found.joints[0].validation_left_out = {0.71, 0.98, 0.46, 0.42};
   EXPECT_THAT(
       run({"--progress", "none"}).err,
-      HasSubstr("12.1 % unseen; 46.0 % over all rows,\n         of which 71.0 % with 98.0 % of the residual's energy"));
+      HasSubstr(
+          "12.1 % validation; 46.0 % over all\n         rows, of which 71.0 % with 98.0 % of the residual's energy"));
 }
 
 TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {
@@ -295,7 +296,7 @@ TEST_F(DiagnoseCommand, ShowsWhatExplainsAPartWithItsParametersAndErrors) {
   std::string const page = show().out;
   EXPECT_THAT(page, StartsWith(made.out));
   for (char const* words :
-       {"stribeck_speed", "error, unseen", "7.8 %", "explained, held-out rows", "71 % (60 to 79 %)"})
+       {"stribeck_speed", "error, validation", "7.8 %", "explained, held-out rows", "71 % (60 to 79 %)"})
     EXPECT_THAT(page, HasSubstr(words));
 }
 

@@ -7,7 +7,7 @@
 namespace torquescope {
 namespace phase_times_test {
 
-ProgressUpdate update(char const* stage, std::int64_t done, char const* counted = "clean twins") {
+ProgressUpdate update(char const* stage, std::int64_t done, char const* counted = "replicates") {
   ProgressUpdate made;
   made.stage = stage;
   made.runs_done = done;

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "engine/app/terminal/colour.hpp"
 
@@ -45,6 +48,16 @@ TEST(Wrap, KeepsWideGapsInsideALine) {
 
 TEST(Wrap, DoesNotCutAPath) {
   EXPECT_EQ(wrap("in /a/very/long/path now", 8, 8), (std::vector<std::string>{"in", "/a/very/long/path", "now"}));
+}
+
+TEST(PageWidth, IsThatOfColumnsBetweenFortyAndEighty) {
+  char const* const before = std::getenv("COLUMNS");
+  std::string const kept = before ? before : "";
+  for (auto const& [columns, width] : {std::pair("47", 47), {"12", 40}, {"200", 80}}) {
+    ::setenv("COLUMNS", columns, 1);
+    EXPECT_EQ(page_width(), width);
+  }
+  before ? ::setenv("COLUMNS", kept.c_str(), 1) : ::unsetenv("COLUMNS");
 }
 
 TEST(Hanging, IndentsBelowItsLead) {

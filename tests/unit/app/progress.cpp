@@ -91,7 +91,7 @@ TEST(ProgressLines, ManyShortStagesGiveOneLineInTenSeconds) {
 
 TEST(ProgressBar, MovesWhileNothingIsCounted) {
   Watched watched(ProgressStyle::bar);
-  watched.printer({"twins", 0, 200, 0, 0, 0.0, "clean twins"});
+  watched.printer({"replicates", 0, 200, 0, 0, 0.0, "replicates"});
   watched.printer.beat();  // too early: what was told still stands
   EXPECT_EQ(watched.text.size(), 1u);
   for (int k = 0; k < 4; ++k) {
@@ -100,7 +100,7 @@ TEST(ProgressBar, MovesWhileNothingIsCounted) {
   }
   ASSERT_EQ(watched.text.size(), 5u);
   for (std::size_t k = 2; k < 5; ++k) EXPECT_NE(watched.text[k], watched.text[k - 1]);
-  EXPECT_THAT(watched.text.back(), HasSubstr("200 clean twins   0:02"));
+  EXPECT_THAT(watched.text.back(), HasSubstr("200 replicates   0:02"));
   // the next stage: the sum of both stands beside it
   watched.printer({"search", 0, 34, 0, 0, 0.0, "effects"});
   watched.now += 3.0;
@@ -148,7 +148,8 @@ TEST(ProgressBar, SaysTheTimeLeftOfAllStagesWhereItIsEstimated) {
 TEST(WaitingBar, FitsEveryWindow) {
   for (int width = 20; width <= 80; ++width)
     for (double seconds : {0.0, 1.3, 77.0, 5000.0})
-      EXPECT_LT(columns_of(waiting_bar({"twins", 0, 200, 0, 0, seconds, "clean twins"}, 9000.0, width, true)), width);
+      EXPECT_LT(columns_of(waiting_bar({"replicates", 0, 200, 0, 0, seconds, "replicates"}, 9000.0, width, true)),
+                width);
 }
 
 TEST(SecondsLeft, AreUnknownInTheFirstTwoSeconds) {
@@ -189,10 +190,11 @@ TEST(ProgressBar, IsErasedWithoutEscapeSequences) {
 }
 
 TEST(ProgressBar, SaysWhatItCounts) {
-  ProgressUpdate now{"twins", 120, 200, 0, 0, 1.0};
-  now.counted = "twins";
-  EXPECT_NE(progress_bar(now, 80, true).find("120/200 twins"), std::string::npos);
-  EXPECT_EQ(progress_line(now), "progress stage=twins runs=120/200\n");  // a stage without evaluations has no such key
+  ProgressUpdate now{"replicates", 120, 200, 0, 0, 1.0};
+  now.counted = "replicates";
+  EXPECT_NE(progress_bar(now, 80, true).find("120/200 replicates"), std::string::npos);
+  EXPECT_EQ(progress_line(now),
+            "progress stage=replicates runs=120/200\n");  // a stage without evaluations has no such key
 }
 
 TEST(ProgressBar, WipesWhatALongerOneLeftBehind) {

@@ -72,11 +72,11 @@ TEST(ResultTable, HasNoTruthColumnForRealData) {
 
 TEST(ResultTable, ShowsUnseenErrorsOnlyWhenThereIsUnseenData) {
   ResultSummary summary = crs_a465();
-  EXPECT_THAT(result_table(summary, Ink()), Not(HasSubstr("unseen")));
+  EXPECT_THAT(result_table(summary, Ink()), Not(HasSubstr("validation")));
   summary.has_validation = true;
   for (auto& each : summary.estimators) each.validation_relerr_median = 0.0733;
   EXPECT_THAT(result_table(summary, Ink()),
-              HasSubstr("  error, unseen     %                           7.33       7.33       7.33\n"));
+              HasSubstr("  error, validation %                           7.33       7.33       7.33\n"));
 }
 
 TEST(ResultTable, OfManyEstimatorsBreaksIntoBlocksOf80Columns) {

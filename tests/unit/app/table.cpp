@@ -33,6 +33,20 @@ TEST(TextTable, BreaksItsLastColumnAndNothingElse) {
   EXPECT_GT(count, 1);
 }
 
+TEST(TextTable, PutsColumnsWithoutRoomBelowTheOthersRowByRow) {
+  TextTable table({Align::left, Align::right, Align::right, Align::left});
+  table.row({"effect", "before", "after", "reason"});
+  table.row({"stribeck", "12.25", "6.125", ""});
+  EXPECT_EQ(table.text(80),
+            "effect    before  after  reason\n"
+            "stribeck   12.25  6.125\n");
+  EXPECT_EQ(table.text(20),
+            "effect    before\n"
+            "    after  reason\n"
+            "stribeck   12.25\n"
+            "    6.125\n");
+}
+
 TEST(TextTable, LeavesNoSpacesAtTheEndOfALine) {
   TextTable table({Align::left, Align::left, Align::right});
   table.row({"a"});

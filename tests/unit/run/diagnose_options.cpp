@@ -43,7 +43,7 @@ TEST(DiagnoseOptions, ADiagnosisNeedsNoEstimatorAndNoSection) {
   EXPECT_EQ(options.max_effects, 5);
   EXPECT_EQ(options.shape_optimiser, "de");
   EXPECT_THAT(experiment.diagnose_line(), HasSubstr("1 joint, 4 parameters; "));
-  EXPECT_THAT(experiment.diagnose_line(), HasSubstr(" effects, 200 clean twins"));
+  EXPECT_THAT(experiment.diagnose_line(), HasSubstr(" effects, 200 replicates"));
 }
 
 TEST(DiagnoseOptions, ARunStillNeedsAnEstimatorAndSaysWhoCanDoWithoutOne) {

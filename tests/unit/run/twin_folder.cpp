@@ -201,7 +201,7 @@ TEST_F(SharedTwins, OfSmallBatchesMakeNoFiles) {
   group.range.to = group.range.from + twin_lanes;
   TwinFolder(setting()).fill(group);
   EXPECT_EQ(twins.computed, twin_lanes);
-  EXPECT_TRUE(files().empty()) << "twins of one group are simulated together";
+  EXPECT_TRUE(files().empty()) << "replicates of one group are simulated together";
 }
 
 TEST_F(SharedTwins, DoNotNeedTheDisk) {

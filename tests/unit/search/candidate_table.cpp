@@ -61,7 +61,7 @@ TEST(CandidateTable, SaysWhatKeptItFromANameAtTheFirstStep) {
   selection.accepted = {accepted("stribeck")};
   EXPECT_EQ(candidate(selection, "presliding").reason, "explains less than what was named");
   EXPECT_EQ(candidate(selection, "cogging").reason, "explains less than the five best");
-  EXPECT_EQ(candidate(selection, "backlash").reason, "within chance (q above 0.05)");
+  EXPECT_EQ(candidate(selection, "backlash").reason, "within chance (p above 0.05)");
   EXPECT_THAT(candidate(selection, "gravity").reason, HasSubstr("the model's own columns"));
   EXPECT_EQ(candidate(selection_of(false), "stribeck").reason, "too little to look for: below 0.25 % of the torque");
 }
@@ -84,7 +84,7 @@ TEST(CandidateTable, OfALaterRoundSaysWhatIsLeftBesideTheNames) {
   EXPECT_EQ(candidate(selection, "presliding").reason, "within chance beside stribeck");
   EXPECT_EQ(candidate(selection, "cogging").reason, "too little is left for it beside stribeck");
   // it never was beyond chance
-  EXPECT_EQ(candidate(selection, "backlash").reason, "within chance (q above 0.05)");
+  EXPECT_EQ(candidate(selection, "backlash").reason, "within chance (p above 0.05)");
 }
 
 TEST(CandidateTable, AGainOnOtherBlocksIsAShareOfWhatIsThere) {

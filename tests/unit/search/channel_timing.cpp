@@ -116,7 +116,7 @@ TEST(ChannelTiming, SaysWhatWasDone) {
   EXPECT_EQ(timing_remark(0.0, 1000.0), "");
   std::string const late = timing_sentence(0.5e-3, 1000.0);
   EXPECT_EQ(late.substr(0, 56), "The torque comes 0.5 ms after its rows, 0.5 of a sample,") << late;
-  EXPECT_NE(late.find("put right (as much less in recording.delay_s"), std::string::npos) << late;
+  EXPECT_NE(late.find("lower recording.delay_s by as much"), std::string::npos) << late;
   EXPECT_EQ(timing_sentence(0.0, 1000.0), "");
 }
 

@@ -16,7 +16,7 @@ JointDiagnosis joint(int number, Verdict verdict, double before, double after = 
   joint.validation_relerr = before;
   joint.augmented_validation_relerr = after;
   joint.validation_torque_energy = 100.0;
-  joint.rows = "all";
+  joint.rows = ErrorRows::all;
   return joint;
 }
 
@@ -42,20 +42,20 @@ TEST(ArmSentence, NamesJointsByVerdictAndTheErrorOverAll) {
   EXPECT_EQ(
       arm_reason_sentence(diagnosis),
       "Named at joint 2 (load dependent friction); named at joint 3 (spring or cable); nothing missing at joint 1. "
-      "Validation relerr over all joints and samples 4.4 % to 3.0 %.");
+      "Validation error over all joints and samples 4.4 % to 3.0 %.");
 }
 
 TEST(ArmSentence, CountsJointsOfWhichNothingElseIsSaid) {
   EXPECT_EQ(
       arm_reason_sentence(arm({joint(1, Verdict::none, 0.03), joint(2, Verdict::none, 0.03),
                                joint(3, Verdict::insufficient, 0.03), joint(4, Verdict::none, 0.03)})),
-      "The recordings cannot tell at joint 3; nothing missing at joints 1, 2 and 4. Validation relerr over all joints "
+      "The recordings cannot tell at joint 3; nothing missing at joints 1, 2 and 4. Validation error over all joints "
       "and samples 3.0 %.");
 }
 
 TEST(ArmSentence, PromisesNothingWhereNothingIsNamed) {
   EXPECT_EQ(arm_reason_sentence(arm({joint(1, Verdict::none, 0.03), joint(2, Verdict::unexplained, 0.03)})),
-            "Unexplained at joint 2; nothing missing at joint 1. Validation relerr over all joints and samples 3.0 %.");
+            "Unexplained at joint 2; nothing missing at joint 1. Validation error over all joints and samples 3.0 %.");
 }
 
 TEST(VerdictOfArm, IsWholeOnlyWhereNoJointIsARiddle) {

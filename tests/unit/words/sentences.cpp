@@ -49,7 +49,7 @@ TEST(ReasonSentence, IsTheOneOfTheSpecification) {
   EXPECT_EQ(
       reason_sentence(diagnosis),
       "Joint 1 loses 0.35 N m extra below 0.12 rad/s in both directions: Stribeck friction (p < 0.005; presliding "
-      "cannot be excluded). Unseen relerr 12.1 % to 6.2 %, floor 6.0 %.");
+      "cannot be excluded). Validation error 12.1 % to 6.2 %, floor 6.0 %.");
 }
 
 TEST(ReasonSentence, CallsTheJointByItsColumn) {
@@ -70,7 +70,7 @@ TEST(ReasonSentence, OfRefutedNamesWithoutUnseenDataTellsBlocks) {
   refuted.cv_relerr = 0.027;
   refuted.augmented_cv_relerr = 0.0271;
   EXPECT_EQ(refutation_clause(refuted, false),
-            "backlash, which would explain it, takes the cross-validated relerr from 2.7 % to 2.7 %");
+            "backlash, which would explain it, takes the cross-validated error from 2.7 % to 2.7 %");
 }
 
 TEST(ReasonSentence, TellsTwoEffectsAndNamesTheOthers) {
@@ -97,17 +97,19 @@ TEST(ReasonSentence, SaysWhatIsLeftWhenMuchIsLeft) {
 TEST(ReasonSentence, UsesCrossValidationAndSaysSoWithoutAnUnseenRecording) {
   Diagnosis diagnosis = example::invented_diagnosis();
   diagnosis.joints[0].validation_relerr = unknown;
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Cross-validated relerr 12.0 % to 6.2 %"));
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Cross-validated error 12.0 % to 6.2 %"));
   EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("Unseen")));
 }
 
 TEST(ReasonSentence, OfNothingMissingStatesThePowerOnlyWhereItIsKnown) {
   Diagnosis diagnosis = example::invented_none();
   EXPECT_EQ(reason_sentence(diagnosis),
-            "The residual of joint 1 looks like that of 200 clean twins (p = 0.41). A 5 % Stribeck effect would have "
+            "The residual of joint 1 looks like that of 200 simulated replicates (p = 0.41). A 5 % Stribeck effect "
+            "would have "
             "shown.");
   diagnosis.joints[0].power_sentence.clear();
-  EXPECT_EQ(reason_sentence(diagnosis), "The residual of joint 1 looks like that of 200 clean twins (p = 0.41).");
+  EXPECT_EQ(reason_sentence(diagnosis),
+            "The residual of joint 1 looks like that of 200 simulated replicates (p = 0.41).");
 }
 
 TEST(ReasonSentence, LeavesTheNameOfAFileAsItIs) {
@@ -117,10 +119,10 @@ TEST(ReasonSentence, LeavesTheNameOfAFileAsItIs) {
 }
 
 TEST(ReasonSentence, OfSomethingElseSaysWhereItIsAndThatNothingFits) {
-  EXPECT_EQ(
-      reason_sentence(example::invented_unexplained()),
-      "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, more than clean twins have there, but none of "
-      "34 known effects fits it.");
+  EXPECT_EQ(reason_sentence(example::invented_unexplained()),
+            "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, more than simulated replicates have "
+            "there, but none of "
+            "34 known effects fits it.");
 }
 
 TEST(ReasonSentence, OfRefutedNamesSaysWhatTheyPromisedAndWhatTheyDid) {
@@ -132,9 +134,11 @@ TEST(ReasonSentence, OfRefutedNamesSaysWhatTheyPromisedAndWhatTheyDid) {
   refuted.floor_relerr = 0.0157;
   diagnosis.joints[0].refutation = refutation_clause(refuted, false);
   EXPECT_EQ(reason_sentence(diagnosis),
-            "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, more than clean twins have there, but "
+            "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, more than simulated replicates have "
+            "there, but "
             "backlash, "
-            "which would explain it, takes the unseen relerr from 2.2 % to 2.5 %, where twins with it promise 1.6 %.");
+            "which would explain it, takes the validation error from 2.2 % to 2.5 %, where replicates with it promise "
+            "1.6 %.");
   diagnosis.joints[0].refutation = refutation_clause(refuted, true);
   EXPECT_THAT(reason_sentence(diagnosis),
               EndsWith("from 2.2 % to 2.5 %, and a joint simulated with it no longer follows the reference."));

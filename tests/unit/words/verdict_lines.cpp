@@ -26,7 +26,7 @@ JointDiagnosis joint_with(std::vector<NamedEffect> effects) {
   joint.effects = std::move(effects);
   joint.train_relerr = 0.05;
   joint.augmented_train_relerr = 0.01;
-  joint.rows = "all";
+  joint.rows = ErrorRows::all;
   return joint;
 }
 
@@ -38,10 +38,23 @@ TEST(VerdictLines, SayNumbersWithIntervalsAndShortTimesInMilliseconds) {
   Diagnosis const diagnosis;
   VerdictLines const lines = verdict_lines(diagnosis, joint_with({stribeck, late}), Verdict::named);
   EXPECT_EQ(lines.what,
-            "Stribeck friction 0.35 A [0.24, 0.46], stribeck_speed 0.080 rad/s [0.070, 0.090]; "
-            "delay 3.8 ms [3.1, 4.4]   p < 0.005");
+            "Stribeck friction 0.35 A [0.24, 0.46], speed 0.080 rad/s [0.070, 0.090]; "
+            "delay 3.8 ms [3.1, 4.4], p < 0.005");
   EXPECT_EQ(lines.errors, "error, all samples: training 5.0 % -> 1.0 %");
   EXPECT_EQ(lines.rows, "");
+}
+
+TEST(ErrorRows, HaveTheWordsOfFilesAndOlderFilesTheFirst) {
+  for (ErrorRows const rows : {ErrorRows::one_way, ErrorRows::in_motion, ErrorRows::all})
+    EXPECT_EQ(error_rows_called(word(rows)), rows);
+  EXPECT_EQ(error_rows_called(""), ErrorRows::one_way);
+}
+
+TEST(VerdictLines, CountWavesInATurnAndSayNoIntervalThatDigitsHide) {
+  NamedEffect cogging = effect_of("cogging", "cogging torque of the motor, fixed in the angle");
+  cogging.parameters = {{"cogging", "N m", 0.06, 0.057, 0.062}, {"cogging_order", "1/rad", 12.0, 11.999, 12.001}};
+  EXPECT_EQ(verdict_lines({}, joint_with({cogging}), Verdict::named).what,
+            "cogging 0.060 N m [0.057, 0.062], 12 a turn, p < 0.005");
 }
 
 TEST(VerdictLines, ShowThreeMembersOfAClassAtMost) {
@@ -49,12 +62,12 @@ TEST(VerdictLines, ShowThreeMembersOfAClassAtMost) {
   one.parameters = {{"cogging_cos", "N m", 0.1}};
   one.equivalent = {"torque_ripple", "transmission_error", "spring", "cable"};
   VerdictLines const lines = verdict_lines({}, joint_with({one}), Verdict::one_of_class);
-  EXPECT_THAT(lines.what, StartsWith("cogging 0.10 N m | torque ripple | transmission error | 2 more   p < 0.005"));
+  EXPECT_THAT(lines.what, StartsWith("cogging 0.10 N m or torque ripple or transmission error or 2 more, p < 0.005"));
 }
 
 TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
   JointDiagnosis joint = joint_with({effect_of("stribeck", "Stribeck friction")});
-  joint.rows = "moving one way";
+  joint.rows = ErrorRows::one_way;
   joint.validation_relerr = 0.08;
   joint.augmented_validation_relerr = 0.02;
   joint.floor_relerr = 0.015;
@@ -65,13 +78,13 @@ TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
   EXPECT_EQ(lines.rows,
             "error on rows that move one way, 75.0 % of training and 65.0 % of validation: "
             "training 5.0 % -> 1.0 %, validation 8.0 % -> 2.0 %, noise 1.5 %");
-  joint.rows = "with reversals";
+  joint.rows = ErrorRows::in_motion;
   EXPECT_THAT(verdict_lines({}, joint, Verdict::named).rows, StartsWith("error on rows in motion, 75.0 %"));
 }
 
 TEST(VerdictLines, CallNoErrorOneOfAllSamplesThatIsNot) {
   JointDiagnosis joint = joint_with({});
-  joint.rows = "moving one way";
+  joint.rows = ErrorRows::one_way;
   joint.augmented_train_relerr = unknown;
   Diagnosis given_up;
   given_up.finding = "the joint stands still";
@@ -96,7 +109,7 @@ TEST(VerdictLines, NameThreeEffectsWithOneNumberEachAndCountTheRest) {
     four.back().parameters = {{name, "N m", 0.1}, {"shape", "rad", 2.0}};
   }
   EXPECT_EQ(verdict_lines({}, joint_with(four), Verdict::named).what,
-            "stribeck 0.10 N m; cogging 0.10 N m; spring 0.10 N m   p < 0.005; and 1 more");
+            "stribeck 0.10 N m; cogging 0.10 N m; spring 0.10 N m, p < 0.005; and 1 more");
 }
 
 TEST(VerdictLines, SayWhatWasDoneToAChannelAndThatAValidationIsOfAnotherKind) {

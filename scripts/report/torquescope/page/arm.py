@@ -55,7 +55,7 @@ class Joint:
     @property
     def unseen_or_train(self):
         """(rows, which): what the picture of its torque shows."""
-        return (self.validate, "unseen") if self.validate is not None else (self.train, "training")
+        return (self.validate, "validation") if self.validate is not None else (self.train, "training")
 
 
 class Arm:

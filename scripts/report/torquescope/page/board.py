@@ -123,7 +123,7 @@ def big_numbers(board):
     for key, caption in (("clean_false_name", "clean records with a false name"),
                          ("single_family", "single effects of SNR 1 or more: right family first"),
                          ("false_share", "false share of the names"),
-                         ("gap_closed", "of the gap to the oracle closed on unseen data, median")):
+                         ("gap_closed", "of the gap to the oracle closed on validation data, median")):
         row = board.row(key)
         if row["value"] is not None:
             found.append((number(row, row["value"]), "", f"{caption}; {_of(row)}"))

@@ -20,7 +20,7 @@ from .figures import all_cases
 from .study import Study
 
 # what the contents of a page of several joints list
-OWN_SECTIONS = (' class="joint"', ' class="next own"')
+OWN_SECTIONS = (' class="joint"', ' class="next own"', ' class="own"')
 HERE = Path(__file__).resolve().parent
 SCRIPTS = ("drawing.js", "samples.js", "trace.js", "zoom.js", "chart.js", "chart_zoom.js",
            "page.js")  # one scope, in this order

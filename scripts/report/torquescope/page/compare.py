@@ -48,6 +48,9 @@ def _verdict(sides):
     else:
         sentence = f"The 95 % intervals of {'all ' if len(told) > 1 else ''}{_parameters(told)} overlap."
     evidence = f"Apart: {q.listed(_plain(name) for name in apart)}." if apart else ""
+    moved = list(dict.fromkeys(side.of for side in sides))
+    if len(moved) > 1:
+        sentence = f"These are results of different joints: {'; '.join(moved)}. {sentence}"
     return {"mark": "◍" if apart else "●", "word": "Side by side", "tone": "ochre" if apart else "ink",
             "sentence": sentence, "headlines": [sentence], "evidence": evidence}
 
@@ -60,8 +63,9 @@ def _facts(sides):
     """{"head", "rows"}: what each result is and how well it fits."""
     errors_of = [side.errors_of for side in sides]
     rows = [["verdict", *(side.verdict for side in sides)], ["job", *(side.job for side in sides)],
+            ["of", *(side.of for side in sides)],
             ["error in training", *(q.percent(side.train) for side in sides)],
-            ["error unseen", *(q.percent(side.unseen) for side in sides)],
+            ["error, validation", *(q.percent(side.unseen) for side in sides)],
             *([["errors are of", *(side.errors_of for side in sides)]] if len(set(errors_of)) > 1 else []),
             ["parameters", *(str(len(side.parameters)) for side in sides)],
             ["made", *(side.finished for side in sides)]]

@@ -35,7 +35,7 @@ class Side:
     def __init__(self, path, label, colour):
         self.label, self.colour = label, colour
         with Result(path) as result:
-            self.job = result.job.name
+            self.job = q.shortened(result.job.name)
             finished = result.provenance.get("finished", "") if "provenance" in result else ""
             self.finished = finished[:10] or "–"
             self.diagnosis = result.diagnosis
@@ -46,6 +46,7 @@ class Side:
             estimator = None if self.diagnosis else _reference(result)
             self.parameters = _of_joints(self.diagnosis.joints) if self.diagnosis else _of_estimator(result, estimator)
             self.train, self.unseen = _errors(self.diagnosis, estimator)
+            self.of = _of_what(result, self.diagnosis)
             self.estimator = estimator.get("title", "") if estimator else ""
             self.errors_of = "all samples, simulated" if estimator and rolls_out(estimator) else "rows"
 
@@ -68,6 +69,15 @@ class Side:
             if number in (0, joint.joint):
                 return _said(joint, name)
         return "–"
+
+
+def _of_what(result, diagnosis):
+    """What was moved, in words: two results that differ here are of different joints or robots."""
+    if "robot" in result:
+        return f"{result.robot.name}, {q.count(len(result.robot.joints), 'joint')}"
+    kind = f"a {result.model.joint} joint"
+    called = diagnosed.which_joint(diagnosis.joints[0]) if diagnosis and len(diagnosis.joints) == 1 else ""
+    return f"{called}, {kind}" if called and called != "joint 1" else kind
 
 
 def sides(paths):
@@ -93,7 +103,7 @@ def effect_title(key):
 
 
 def _said(joint, name):
-    """'● named, 34 % of the error unseen', or what the table of candidates says."""
+    """'● named, z 8.1', or what the table of candidates says."""
     for effect in joint.effects:
         if effect.name == name:
             with_others = f" or {q.listed(map(diagnosed.effect_name, effect.equivalent))}" if effect.equivalent else ""
@@ -132,7 +142,7 @@ def _of_joints(joints):
 
 
 def _errors(diagnosis, estimator):
-    """(training, unseen) as fractions; NaN where unknown, and of several joints, which have errors of their own."""
+    """(training, validation) as fractions; NaN where unknown, and of several joints, which have errors of their own."""
     if estimator is not None:
         unseen = estimator.get("validation_relerr_median", math.nan)
         return float(estimator.relerr_median), float(math.nan if unseen is None else unseen)

@@ -77,7 +77,7 @@ def which_joint(joint):
 
 
 def looks_at_less_than_half(joint):
-    """Of the residual's energy, in training or unseen."""
+    """Of the residual's energy, in training or validation."""
     return joint.train_left_out_energy > 0.5 or joint.validation_left_out_energy > 0.5
 
 
@@ -114,12 +114,12 @@ def rows_drawn(joint):
 
 
 def is_quiet(row):
-    """Nothing was located on it, and the twins show as much."""
+    """Nothing was located on it, and the replicates show as much."""
     return not row.regions and not row.is_spectrum and row.p >= 0.05
 
 
 def strongest_rows(joint):
-    """Rows that are no spectra, the one with most residual beyond the twins first."""
+    """Rows that are no spectra, the one with most residual beyond the replicates first."""
     return sorted(
         (row for row in rows_drawn(joint) if not row.is_spectrum), key=lambda row: -np.nan_to_num(row.energy_share)
     )
@@ -186,7 +186,7 @@ def _rounded_up(bound):
 
 
 def twins_as_far(joint):
-    """How many of the twins have at least this recording's mismatch; None without twins."""
+    """How many of the replicates have at least this recording's mismatch; None without replicates."""
     if not joint.twins or not math.isfinite(joint.omnibus_p):
         return None
     return max(round(joint.omnibus_p * (joint.twins + 1)) - 1, 0)
@@ -197,8 +197,7 @@ def has_floor(joint):
 
 
 def share_closed(joint):
-    """Of the error that a complete model would take away on the unseen recording (or in training); NaN when there is
-    none."""
+    """Of the error that a complete model would take away in validation (or in training); NaN when there is none."""
     before, after, floor = unseen_errors(joint)
     if not has_after(joint) or is_at_floor(before, floor) or not before > floor:
         return math.nan
@@ -206,7 +205,7 @@ def share_closed(joint):
 
 
 def is_at_floor(error, floor):
-    """A fiftieth above it is at it, as the verdict's sentence has it: the floor is a mean over twins."""
+    """A fiftieth above it is at it, as the verdict's sentence has it: the floor is a mean over replicates."""
     return error <= 1.02 * floor
 
 
@@ -236,7 +235,7 @@ def told_errors(joint):
 
 
 def unseen_errors(joint):
-    """(before, after, floor) on the unseen recording, or in training without one."""
+    """(before, after, floor) on the validation recording, or in training without one."""
     if math.isfinite(joint.validation_relerr):
         return joint.validation_relerr, joint.augmented_validation_relerr, joint.floor_relerr
     return joint.train_relerr, joint.augmented_train_relerr, joint.train_floor_relerr

@@ -18,7 +18,7 @@ def friction_laws(model):
 
 
 def value(model, dq, sign=(1.0, -1.0)):
-    """Torque of these laws; sign: friction_sign of both directions."""
+    """Torque of these effects; sign: friction_sign of both directions."""
     known = {name: one.value for name, one in model.items()}
     known |= {"dq": dq, "s": np.sign(dq), "friction_sign": np.where(dq > 0, sign[0], np.where(dq < 0, sign[1], 0.0)),
               "exp": np.exp, "fabs": np.abs, "pow": np.power, "__builtins__": {}}

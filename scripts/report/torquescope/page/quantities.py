@@ -94,6 +94,11 @@ def count(n, noun, plural=None):
     return f"{whole(n)} {noun if n == 1 else plural or noun + 's'}"
 
 
+def shortened(text, letters=80):
+    """A name as a page has room for it: a job or a file may be called anything."""
+    return text if len(text) <= letters else text[:letters - 1] + "…"
+
+
 def whole(n):
     """Thousands apart by a narrow no-break space from 10 000 on."""
     return f"{int(n):,}".replace(",", "\u202f") if abs(n) >= 10000 else str(int(n))

@@ -8,7 +8,7 @@ from . import quantities as q
 from .board import plain
 
 TONES = {"right": "held", "wrong": "failed"}
-ROWS = {"unseen": "unseen", "cross-validated": "left out in turn", "": "–"}
+ROWS = {"unseen": "validation", "cross-validated": "left out in turn", "": "–"}
 
 
 class RealBoard:

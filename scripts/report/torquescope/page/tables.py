@@ -123,7 +123,7 @@ def provenance(study):
             ("vector instructions", p.vector_target), ("version", p.version), ("compiler", p.compiler),
             ("build", p.build_type), ("HDF5", p.hdf5_version), ("Eigen", p.eigen_version), ("seed", study.job.seed),
             ("job sha256", study.job.sha256), ("result sha256", study.digest)]
-    for which, data in (("training", study.train), ("unseen", study.validate)):
+    for which, data in (("training", study.train), ("validation", study.validate)):
         if data is not None:
             told += [(f"{which} data", f"{name}, sha256 {digest}")
                      for name, digest in zip(data.recordings or [], data.sha256 or [])]

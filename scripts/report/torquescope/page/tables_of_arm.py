@@ -45,7 +45,7 @@ def errors(study):
         for label, of_joints, of_arm in kinds:
             parts = [("train", of_joints, of_arm)]
             if unseen:
-                parts.append(("unseen", "validation_" + of_joints, "validation_" + of_arm))
+                parts.append(("validation", "validation_" + of_joints, "validation_" + of_arm))
             for which, joints_key, arm_key in parts:
                 head.append(f"{e.short}, {which}{label}")
                 columns.append((getattr(e, joints_key), getattr(e, arm_key)))

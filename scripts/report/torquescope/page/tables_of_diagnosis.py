@@ -40,13 +40,8 @@ def _candidate(one, scale):
         "z_pixel": pixels(one.z) if tested else None,
         "z": q.fixed(one.z, 1) if tested else "–",
         "p": diagnosed.p_cell(one.p, one.p_is_bound) if tested else "–",
-        "q": _q(one.q) if tested else "–",
         "cv_gain": f"{q.fixed(100 * one.cv_gain, 1)} %" if 0 < one.cv_gain <= 1 else diagnosed.share_words(one.cv_gain),
     }
-
-
-def _q(value):
-    return "–" if not math.isfinite(value) else "<0.001" if value < 0.0005 else q.number(value, 1 if value < 0.1 else 2)
 
 
 def forward(joint):

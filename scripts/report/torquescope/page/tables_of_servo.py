@@ -8,7 +8,7 @@ BAR_WIDTH = 72  # px of the largest error of a table
 REFUSALS = {
     "none": "passes",
     "chance": "replicates gain as much",
-    "smaller": "another law explains more",
+    "smaller": "another effect explains more",
     "failed_fit": "its fit failed",
     "at_bound": "a number ends at its bound",
     "not_predicted": "validation recordings are not predicted better",
@@ -39,7 +39,7 @@ def _gain(value):
 
 
 def law_parameters(servo):
-    """{"head", "rows"}: a row for each number of the laws that were kept."""
+    """{"head", "rows"}: a row for each number of the effects that were kept."""
     rows = []
     for law in servo.kept:
         sure = [_gain(law.gain), q.number(law.p, 2)]
@@ -48,7 +48,7 @@ def law_parameters(servo):
                          *(sure if at == 0 else ["", ""])])
         if not law.parameters:
             rows.append([law.title, "–", "–", "", "–", *sure])
-    return {"head": ["law", "parameter", "value", "unit", "95 % interval", "D", "p"], "rows": rows}
+    return {"head": ["effect", "parameter", "value", "unit", "95 % interval", "D", "p"], "rows": rows}
 
 
 def parameters(servo):
@@ -118,8 +118,8 @@ def recordings(study):
 
 
 def moves(step):
-    """{"head", "rows"}: the laws that were tried beside one model."""
-    head = ["law", "D", "D by chance", "p", "error before", "error after", "decision"]
+    """{"head", "rows"}: the effects that were tried beside one model."""
+    head = ["effect", "D", "D by chance", "p", "error before", "error after", "decision"]
     rows = [[say.plain(one.name), _gain(one.gain), _gain(one.gain_by_chance), q.number(one.p, 2),
              q.percent(one.error_before), q.percent(one.error_after),
              REFUSALS.get(one.refusal, say.plain(one.refusal))] for one in step.moves]

@@ -35,7 +35,8 @@ def standing(negative, words, late):
     """mark, word, tone, words: of parameters that are surely negative, of a warning about the regressor, of searches
     that have not arrived."""
     if negative:
-        return "▽", "Not physical", "ochre", f"Less than none is fitted of {q.listed(negative)}. {words}".strip()
+        said = f"What cannot be negative is fitted below zero: {q.listed(negative)}. {words}"
+        return "▽", "Not physical", "ochre", said.strip()
     if words:
         return "▽", "Identified, but poorly separable", "ochre", words
     if late:
@@ -81,7 +82,7 @@ def _fit_sentence(study):
     count = q.count_word(len(study.model.names)).capitalize()
     seen = e.validation_relerr_median if study.validate is not None else e.relerr_median
     what = study.error_of(e) if e.rolls_out else study.effort
-    where = f"an unseen {what}" if study.validate is not None else f"the {what}"
+    where = f"a validation {what}" if study.validate is not None else f"the {what}"
     if seen < 0.5:
         simulated = f", {words_of_rollouts.how(study)}," if e.rolls_out else ""
         return f"{count} parameters{simulated} reproduce {where} to within {q.percent(seen)}."
@@ -113,9 +114,10 @@ def big_numbers(study):
     of = f" of the {study.error_of(e)}, simulated by" if e.rolls_out else " of"
     if study.validate is not None:
         found.append((q.percent(e.validation_relerr_median), "",
-                      f"error{of} {e.short} on the unseen recording; {q.percent(e.relerr_median)} in training"))
+                      f"error{of} {e.short} on the validation recording; {q.percent(e.relerr_median)} in training"))
     else:
-        found.append((q.percent(e.relerr_median), "", f"error{of} {e.short} in training; nothing unseen was given"))
+        found.append((q.percent(e.relerr_median), "",
+                      f"error{of} {e.short} in training; no validation recording was given"))
     if study.ols is not None:
         found.append((q.number(e.mse_median), q.square(study.effort_unit), "mean square error of OLS: the floor"))
     for s in study.to_floor[:2]:
@@ -226,7 +228,7 @@ def stop_reasons(e):
 def warnings(study):
     """[(recording, topic, text)]."""
     found = []
-    for which, data in (("training", study.train), ("unseen", study.validate)):
+    for which, data in (("training", study.train), ("validation", study.validate)):
         for text in data.warned if data is not None else []:
             topic, _, rest = text.partition(": ")
             found.append((which, topic, rest) if rest else (which, "", topic))
@@ -240,7 +242,7 @@ def head(study):
 def head_of_recordings(study, kind):
     """The one line at the top: job, kind of joint, lengths and rate of the recordings, date."""
     return [study.job.name, kind,
-            f"train {q.seconds(study.train.duration_s)}" + (f", unseen {q.seconds(study.validate.duration_s)}"
+            f"train {q.seconds(study.train.duration_s)}" + (f", validation {q.seconds(study.validate.duration_s)}"
                                                              if study.validate is not None else "")
             + f", {q.tick(study.train.kept_rate_hz)} Hz", *date_of(study)]
 

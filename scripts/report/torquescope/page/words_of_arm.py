@@ -30,7 +30,7 @@ def _less_than_none(study):
 def _error(study):
     e = study.arm.reference(study)
     unseen = e.validation_relerr_median if study.validate is not None else None
-    return (unseen, "an unseen motion") if unseen is not None and np.isfinite(unseen) else \
+    return (unseen, "a validation motion") if unseen is not None and np.isfinite(unseen) else \
         (e.relerr_median, "the training motion")
 
 
@@ -62,7 +62,7 @@ def big_numbers(study):
     """[(number, unit, caption)]."""
     e = study.arm.reference(study)
     unseen = study.validate is not None
-    prefix, where = ("validation_", "unseen") if unseen else ("", "in training; nothing unseen was given")
+    prefix, where = ("validation_", "validation") if unseen else ("", "in training; no validation recording was given")
     first = getattr(e, prefix + "relerr_median")
     joints = np.asarray(getattr(e, prefix + "joint_relerr"), dtype=float)
     found = [(q.percent(first), "", f"error of {e.short} over all joints, {where}"

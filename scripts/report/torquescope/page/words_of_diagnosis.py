@@ -12,7 +12,7 @@ VERDICTS = {
     "class": ("◍", "Missing physics: one of {count}", "blue"),
     "partly": ("◐", "Missing physics partly explained", "blue"),
     "none": ("○", "Nothing missing", "ink"),
-    "unexplained": ("◌", "Something else", "ochre"),
+    "unexplained": ("◌", "Unexplained: something else is missing", "ochre"),
     "insufficient": ("▽", "Recording too poor", "ochre"),
     "data_fault": ("✕", "Recording at fault", "ochre"),
 }
@@ -47,6 +47,23 @@ def joint_verdict(joint):
     return f"{mark} " + word.format(count=q.count_word(several[0]) if several else "several")
 
 
+def missing_first(joints):
+    """As they stand on a page: what lacks most first, in the order of VERDICTS; what lacks nothing last."""
+    order = [*(name for name in VERDICTS if name != "none"), "none"]
+    return sorted(joints, key=lambda joint: order.index(joint.verdict) if joint.verdict in order else 0)
+
+
+def joint_line(joint):
+    """Of one joint among others: what it lacks, and its errors. "Stribeck friction. Error in training, all samples:
+    5.1 → 0.5 %; error in validation, ..." """
+    names = [diagnosed.effect_words(effect) for effect in joint.effects]
+    what = _capital(q.listed(names)) + ". " if names else ""
+    if not names and joint.verdict != "none":
+        what = _SENTENCE.split(joint.reason)[0] + " " if joint.reason else ""
+    errors = [f"{caption}: {_before_after(before, after)}" for before, after, caption in diagnosed.told_errors(joint)]
+    return what + (_capital("; ".join(errors)) + "." if errors else "")
+
+
 def kept_together(text):
     """A number stays on one line with its unit, a p with its value."""
     text = re.sub(r"(?<=\d) (?=%|[kmµ]?(?:N|rad|s|m|Hz|A|V|kg|K)\b)", "\u00a0", text)
@@ -73,7 +90,7 @@ def _set(found):
 
 def _replicates(found):
     twins = max((joint.twins for joint in found.joints), default=0)
-    return [f"p from {q.whole(twins)} clean twins."] if twins and "twins" not in found.reason else []
+    return [f"p from {q.whole(twins)} simulated replicates."] if twins and "replicates" not in found.reason else []
 
 
 def _capital(text):
@@ -98,7 +115,7 @@ def big_numbers(joint):
             (f"about {q.percent(floor)}", "", "floor: it is reached")
             if reached and not diagnosed.is_below_floor(error, floor)
             else (
-                (f"about {q.percent(floor)}", "", "floor, as clean twins have it on average: the error is below")
+                (f"about {q.percent(floor)}", "", "floor, as replicates have it on average: the error is below")
                 if reached
                 else (q.percent(floor), "", "floor: what a complete model would leave")
             )
@@ -111,7 +128,7 @@ def big_numbers(joint):
         found.append((q.percent(closed), "", "of the closable gap is closed"))
     as_far = diagnosed.twins_as_far(joint)
     if as_far is not None:
-        found.append((q.whole(as_far), f"of {q.whole(joint.twins)}", "clean twins look like this"))
+        found.append((q.whole(as_far), f"of {q.whole(joint.twins)}", "simulated replicates look like this"))
     return found[:4]
 
 
@@ -131,13 +148,13 @@ def map_answer(joint):
         return "Not measured: no map could be made from this recording."
     located = [row for row in rows if row.regions]
     if not located:
-        return f"Nowhere: no stretch of the {q.count_word(len(rows))} axes holds more than the clean twins do."
+        return f"Nowhere: no stretch of the {q.count_word(len(rows))} axes holds more than the replicates do."
     located.sort(key=lambda row: -row.energy_share if math.isfinite(row.energy_share) else 0.0)
     where = q.listed(diagnosed.axis_title(row.axis) for row in located)
     most = q.percent(located[0].energy_share)
     others = len(rows) - len(located)
     quiet = f"; nothing is located on the other {q.count_word(others) if others > 1 else 'one'}" if others else ""
-    return f"Located on {where}, where up to {most} of the residual's energy is beyond the clean twins{quiet}."
+    return f"Located on {where}, where up to {most} of the residual's energy is beyond the replicates{quiet}."
 
 
 def candidates_answer(joint):
@@ -148,16 +165,15 @@ def candidates_answer(joint):
         said = (f"{q.count(tested, 'candidate')} tested, smallest p first, equal p by z; "
                 + ("what is named stands on top" if named else "none is named"))
     return (
-        f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch that is predicted on "
-        "blocks of "
-        "time that nothing was fitted to; –: not tried."
+        f"{said}. p counts the search over all effects and shapes. Grey: what 95 % of the replicates stay below. CV "
+        "gain: share of the mismatch that is predicted on blocks of time that nothing was fitted to; –: not tried."
     )
 
 
 def left_out_note(joint):
     """What the mask leaves out of the errors, and the errors with it; empty where nothing is left out."""
     said = []
-    for name, where in (("train", "training"), ("validation", "unseen")):
+    for name, where in (("train", "training"), ("validation", "validation")):
         time, energy = getattr(joint, f"{name}_left_out_time"), getattr(joint, f"{name}_left_out_energy")
         before = getattr(joint, f"{name}_relerr_all_rows")
         after = getattr(joint, f"augmented_{name}_relerr_all_rows")
@@ -174,24 +190,24 @@ def left_out_note(joint):
 def fit_answer(study, joint):
     if not math.isfinite(joint.validation_relerr):
         given = "was not judged" if study.validate is not None else "was not given"
-        return f"An unseen recording {given}: whether the model holds on another motion, this file cannot say."
-    refitted = f" Refitted on the head of the unseen recording: {q.listed(joint.nuisances)}." if joint.nuisances else ""
+        return f"A validation recording {given}: whether the model holds on another motion, this file cannot say."
+    nuisances = q.listed(joint.nuisances)
+    refitted = f" Refitted on the head of the validation recording: {nuisances}." if joint.nuisances else ""
     if not diagnosed.has_after(joint):
         at = _floor_words(joint.validation_relerr, joint.floor_relerr)
-        return (
-            f"Nothing was put into the model; its error unseen is {q.percent(joint.validation_relerr)}{at}." + refitted
-        )
+        error = q.percent(joint.validation_relerr)
+        return f"Nothing was put into the model; its validation error is {error}{at}.{refitted}"
     before, after, floor = diagnosed.unseen_errors(joint)
     to = _floor_words(after, floor)
-    return f"Unseen error {q.percent(before)} before, {q.percent(after)} after{to}.{refitted}"
+    return f"Validation error {q.percent(before)} before, {q.percent(after)} after{to}.{refitted}"
 
 
 def _floor_words(error, floor):
-    """Unseen, as the verdict's sentence has it (engine/words/error_words.hpp)."""
+    """Validation, as the verdict's sentence has it (engine/words/error_words.hpp)."""
     if not math.isfinite(floor):
         return ""
     if diagnosed.is_below_floor(error, floor):
-        return f", at the floor (about {q.percent(floor)}: what clean twins leave on average)"
+        return f", at the floor (about {q.percent(floor)}: what replicates leave on average)"
     return (
         f", at the floor (about {q.percent(floor)})"
         if diagnosed.is_at_floor(error, floor)
@@ -210,7 +226,7 @@ def effect_line(joint, effect):
     gains = [
         (effect.gain_train, "in training"),
         (effect.gain_cv, "cross-validated"),
-        (effect.gain_validation, "unseen"),
+        (effect.gain_validation, "validation"),
     ]
     gains = [f"{diagnosed.share_words(gain)} {where}" for gain, where in gains if math.isfinite(gain)]
     if gains:
@@ -248,12 +264,13 @@ def next_steps(study, joint):
 
 
 def how_found(joint):
-    """[(what, value)] for the fold: the twins and the loop they were simulated with."""
-    told = [("clean twins", q.whole(joint.twins) if joint.twins else "not made"), ("samples", joint.rows),
+    """[(what, value)] for the fold: the replicates and the loop they were simulated with."""
+    told = [("replicates", q.whole(joint.twins) if joint.twins else "not made"), ("samples", joint.rows),
             ("control loop", joint.loop_source),
             ("about the loop", joint.loop_remark)]
     for what, value in (("torque noise", joint.torque_noise), ("disturbance", joint.disturbance),
-                        ("mismatch beyond the twins, rms", joint.mismatch_rms), ("the same after", joint.left_rms)):
+                        ("mismatch beyond the replicates, rms", joint.mismatch_rms),
+                        ("the same after", joint.left_rms)):
         measured = math.isfinite(value) and joint.twins
         told.append((what, q.with_unit(q.number(value), joint.unit_torque) if measured else "not measured"))
     if math.isfinite(joint.friction_wander) and joint.twins:

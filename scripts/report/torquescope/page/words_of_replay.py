@@ -24,13 +24,13 @@ def roles(replay):
 
 
 def named_recordings(replay):
-    """[(name of its figure, recording)], unseen ones first."""
+    """[(name of its figure, recording)], those of validation first."""
     number = {id(one): at for at, one in enumerate(replay.recordings, start=1)}
     return [(f"replay_{number[id(one)]}", one) for one in unseen_first(replay)]
 
 
 def first(replay):
-    """The recording that sentences are about: unseen if there is one."""
+    """The recording that sentences are about: validation if there is one."""
     return next(one for one in unseen_first(replay) if one.channels)
 
 
@@ -40,7 +40,7 @@ def ends_early(one):
 
 
 def called(one):
-    return f"{one.name}, {'unseen' if one.is_unseen else 'training'}"
+    return f"{one.name}, {'validation' if one.is_unseen else 'training'}"
 
 
 def caption(replay, one):
@@ -65,11 +65,11 @@ def _driven(one):
 
 
 def loop(one):
-    """The loop's sentence, and what its law leaves."""
+    """The loop's sentence, and what its controller leaves."""
     words = one.loop_words.strip()
     said = [words[0].upper() + words[1:].rstrip(".") + "."] if words else []
     if math.isfinite(one.loop_error):
-        said.append(f"The loop’s law leaves {q.percent(one.loop_error)} of the recorded torque.")
+        said.append(f"The loop’s controller leaves {q.percent(one.loop_error)} of the recorded torque.")
     return " ".join(said)
 
 
@@ -122,7 +122,7 @@ def answer(study):
 
 
 def _which(one):
-    return f"the {'unseen' if one.is_unseen else 'training'} recording {one.name}"
+    return f"the {'validation' if one.is_unseen else 'training'} recording {one.name}"
 
 
 def _told(study, one):
@@ -173,7 +173,7 @@ def head(study):
     recordings = study.replay.recordings
     unseen = sum(one.is_unseen for one in recordings)
     return [study.job.name, f"{study.joint} joint",
-            q.count(len(recordings), "recording") + (f", {q.whole(unseen)} unseen" if unseen else "")]
+            q.count(len(recordings), "recording") + (f", {q.whole(unseen)} validation" if unseen else "")]
 
 
 def big_numbers(study):
@@ -184,7 +184,7 @@ def big_numbers(study):
     for name, channel in _told(study, one):
         before, after = (figure_of(one, channel.relerr, model, q.percent) for model in (replay.before, replay.after))
         was = f"; {before} {_with(replay, replay.before)}" if replay.after != replay.before else ""
-        where = "unseen" if one.is_unseen else "training"
+        where = "validation" if one.is_unseen else "training"
         found.append((after, "", kept_together(f"error of the {name}, {where}{was}")))
     found.append((q.whole(one.samples), "", "samples, and all of them count"))
     if ends_early(one):

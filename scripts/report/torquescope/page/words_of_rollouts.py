@@ -36,10 +36,10 @@ def evidence(study, e):
 
 
 def errors(study, e):
-    """'LM: 3.0 % relative error of the force in training, 3.5 % unseen, over all samples, simulated in closed loop.'"""
+    """'LM: 3.0 % relative error of the force in training, 3.5 % in validation, over all samples, in its loop.'"""
     if ran_away(e):
         return evidence(study, e)
-    unseen = "" if study.validate is None else f", {q.percent(e.validation_relerr_median)} unseen"
+    unseen = "" if study.validate is None else f", {q.percent(e.validation_relerr_median)} in validation"
     return (f"{e.short}: {q.percent(e.relerr_median)} relative error of the {study.error_of(e)} in training{unseen}, "
             f"over all samples, {how(study)}.")
 

@@ -12,7 +12,7 @@ FINER = {"rad": ("mrad", 1e3), "m": ("mm", 1e3)}  # of errors
 
 
 def has_after(servo):
-    """A law was kept: there is an after to set beside the before."""
+    """An effect was kept: there is an after to set beside the before."""
     return bool(servo.kept)
 
 
@@ -133,7 +133,7 @@ def motion_answer(study):
     said = f"{order}; those with the largest error {'after ' if has_after(servo) else ''}lead. " \
         if len(servo.recordings) > 1 else ""
     said += "Simulated in closed loop from the commanded position, over all samples"
-    said += ": before by the job’s model, after with the laws below." if has_after(servo) else " by the job’s model."
+    said += ": before by the job’s model, after with the effects below." if has_after(servo) else " by the job’s model."
     more = len(servo.recordings) - MOST_DRAWN
     return said + (f" {q.count(more, 'recording')} more {'is' if more == 1 else 'are'} in the table alone."
                    if more > 0 else "")
@@ -142,11 +142,11 @@ def motion_answer(study):
 def laws_answer(study):
     servo = study.servo
     if not servo.kept:
-        return "No law of drive or gear was kept."
+        return "No effect of drive or gear was kept."
     law = servo.kept[0]
-    said = (f"{q.count_word(len(servo.kept)).capitalize()} law{'s' if len(servo.kept) > 1 else ''} of drive and gear "
-            f"{'were' if len(servo.kept) > 1 else 'was'} kept. D says how much worse the recordings are fitted without "
-            "a law; p, how often replicates of the model without it gain as much by chance")
+    said = (f"{q.count_word(len(servo.kept)).capitalize()} effect{'s' if len(servo.kept) > 1 else ''} of drive and "
+            f"gear {'were' if len(servo.kept) > 1 else 'was'} kept. D says how much worse the recordings are fitted "
+            "without an effect; p, how often replicates of the model without it gain as much by chance")
     counts = {step.replicates for step in servo.steps}
     if len(counts) == 1 and (least := 1 / (counts.pop() + 1)) > 0:
         said += f": {q.number(least, 2)} at least" if law.p >= least * (1 - 1e-9) else ""
@@ -184,9 +184,9 @@ def errors_answer(study):
 
 
 def left_out_answer(study):
-    return ("The laws are those that were chosen on all recordings of training. Their numbers are fitted anew without "
-            f"the recordings of each value; the errors, in {finer(study.servo)[0]}, are those of the recordings that "
-            "were left out.")
+    return ("The effects are those that were chosen on all recordings of training. Their numbers are fitted anew "
+            f"without the recordings of each value; the errors, in {finer(study.servo)[0]}, are those of the "
+            "recordings that were left out.")
 
 
 def step_title(step):

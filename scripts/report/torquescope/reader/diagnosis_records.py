@@ -42,7 +42,7 @@ class Parameter:
 
 @dataclass
 class Region:
-    """Where the residual is not what clean twins have; energy_share of the residual, repeatable_share of the region."""
+    """Where the residual is not what replicates have; energy_share of the residual, repeatable_share of the region."""
 
     where: Interval
     time_share: float
@@ -242,7 +242,7 @@ class Joint:
 
 @dataclass
 class WholeArm:
-    """Laws that act on several joints at once."""
+    """Effects that act on several joints at once."""
     effects: list  # [NamedEffect] in the order of acceptance
     candidates: list  # [Candidate] strongest first
 

@@ -121,7 +121,7 @@ def _channel(group):
 
 
 def replay_table(replay: Replay, number) -> list[list[str]]:
-    """Rows of texts, the head first: relative errors of all models, unseen recordings first; `number` writes them."""
+    """Rows of texts, the head first: relative errors of all models, those of validation first; `number` writes them."""
     rows = [["replayed", "channel", *replay.models]]
     for one in unseen_first(replay):
         for name, channel in one.channels.items():

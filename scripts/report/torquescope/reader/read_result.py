@@ -207,7 +207,7 @@ class Result(Group):
 
     @property
     def validate(self):
-        """Unseen data, laid out as `train`; None when the job has none."""
+        """Validation data, laid out as `train`; None when the job has none."""
         return Group(self._file["data/validate"]) if "data/validate" in self._file else None
 
     @property
@@ -304,7 +304,7 @@ def _servo_summary(servo):
     """The headline, errors, and the parameters before and after."""
     yield servo.headline
     rows = [["mean absolute error of the position", "recordings", "unit", "before", "after"]]
-    for name, error in (("train", servo.train), ("unseen", servo.validate)):
+    for name, error in (("train", servo.train), ("validation", servo.validate)):
         if error.recordings:
             rows.append([name, str(error.recordings), servo.unit, _number(error.before), _number(error.after)])
     if len(rows) > 1:

@@ -4,7 +4,7 @@
     servo = Result("servo.h5").servo()                 None when the file holds none
     servo.verdict, servo.headline                      'named', 'explained by ...'
     servo.validate.before, servo.validate.after        mean absolute errors of the position, validation recordings
-    servo.kept[0].title, servo.kept[0].rivals          laws that were kept, and those they cannot be told from
+    servo.kept[0].title, servo.kept[0].rivals          effects that were kept, and those they cannot be told from
     servo.parameters["load_friction"].value            with 95 % interval: lower, upper
     servo.tables["mass_kg"][0].validate.after          errors by one quantity of the recordings
 
@@ -25,7 +25,7 @@ from .diagnosis_records import Parameter
 
 @dataclass
 class ServoError:
-    """Of the job's model (before) and of the one with the laws that were kept (after)."""
+    """Of the job's model (before) and of the one with the effects that were kept (after)."""
 
     recordings: int
     samples: int
@@ -75,7 +75,7 @@ class ServoRecording:
 
 @dataclass
 class ServoMove:
-    """A law beside the model of a step."""
+    """An effect beside the model of a step."""
 
     name: str
     refusal: str  # "none", "chance", "smaller", "failed_fit", "at_bound", "not_predicted"
@@ -88,7 +88,7 @@ class ServoMove:
 
 @dataclass
 class ServoStep:
-    """One model of the search, and every law that was tried beside it."""
+    """One model of the search, and every effect that was tried beside it."""
 
     model: list[str]  # laws in it
     replicates: int

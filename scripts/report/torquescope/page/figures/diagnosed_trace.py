@@ -1,4 +1,4 @@
-"""The torque of a recording and what the model leaves of it before and after, in three aligned rows on one scale."""
+"""The motion of a recording, its torque measured and predicted before and after, and what is left: aligned rows."""
 
 import math
 
@@ -10,19 +10,27 @@ from . import Case
 WITHIN = ("velocity", "position", "time")  # axes whose value a trace holds sample by sample
 
 
-def draw(time, torque, before, after, floor, window, regions, effort, symbol, unit, width=style.WIDE):
-    """Arrays [n]; after: None without one; floor: half height of the band of what noise alone leaves, 0 unknown;
-    regions [k][2]: times between which the motion is inside a located region."""
-    measured = traces.Line("measured", torque, style.LIGHT["ink"], thickness=1.2, label="measured")
-    rows = [traces.Row(f"{effort} ({unit})", symbol, unit, [measured], 130, *traces.scale(torque))]
+def draw(time, position, torque, before, after, floor, window, regions, effort, symbol, unit, width=style.WIDE):
+    """Arrays [n]; position: (values, unit), None where it is not known; before, after: residuals; after: None without
+    one; floor: half height of the band of what noise alone leaves, 0 unknown; regions [k][2]: times between which the
+    motion is inside a located region."""
+    measured = traces.Line("measured", torque, style.LIGHT["measured"], thickness=4, label="measured")
+    when = {"before": " before", "after": " after"} if after is not None else {"before": ""}
+    predicted = [traces.Line(f"measured-{part}", torque - values, style.LIGHT[colour], thickness=thickness,
+                             label=f"predicted{when[part]}")
+                 for part, values, colour, thickness in (("before", before, "baseline", 1.9),
+                                                         ("after", after, "augmented", 1.2)) if values is not None]
+    rows = [traces.Row(f"{effort} ({unit})", symbol, unit, [measured, *predicted], 170, *traces.scale(torque))]
     limit = 1.05 * float(np.nanmax(np.abs(before)))
-    for words, part, values, colour in (
-        ("residual before", "before", before, "baseline"),
-        ("residual after", "after", after, "augmented"),
-    ):
+    for part, values, colour in (("before", before, "baseline"), ("after", after, "augmented")):
         if values is not None:
+            words = f"residual{when[part]}"
             line = traces.Line(part, values, style.LIGHT[colour], thickness=1.1, label=words)
             rows.append(traces.Row(f"{words} ({unit})", symbol, unit, [line], 84, -limit, limit, floor))
+    if position is not None:
+        values, of = position
+        line = traces.Line("position", values, style.LIGHT["ink"], thickness=1.1)
+        rows.append(traces.Row(f"position ({of})", "q", of, [line], 64, *traces.scale(values)))
     return traces.draw(time, rows, window, traces.Line("measured", torque, style.LIGHT["ink"]), width, regions)
 
 
@@ -67,9 +75,12 @@ def cases(study):
 def _case(study, joint, trace, regions):
     after = trace.after if diagnosed.has_after(joint) and np.isfinite(trace.after).any() else None
     floor = _floor(joint, trace)
+    has_position = len(trace.position) == len(trace.time) and np.isfinite(trace.position).any()
+    position = (trace.position, quantities.unit(joint.unit_position)) if has_position else None
     window = window_of_most_gain(trace.time, trace.before, after)
     arguments = {
         "time": trace.time,
+        "position": position,
         "torque": trace.torque,
         "before": trace.before,
         "after": after,
@@ -83,13 +94,17 @@ def _case(study, joint, trace, regions):
     whole = window[1] - window[0] >= trace.time[-1] - trace.time[0]
     opened = "" if whole else (" Opened on the six seconds that gain most." if after is not None
                                else " Opened on the six seconds with most residual.")
-    sentence = f"Residuals on one scale, left out where the joint turns round.{opened}"
+    gaps = " Gaps: rows that are left out, where the joint turns round." if np.isnan(trace.before).any() else ""
+    sentence = f"Grey: measured. Below: what is left, on one scale.{gaps}{opened}"
     if floor:
         sentence += " Band: ±2 sd of the floor."
     if regions:
         shaded = quantities.listed(dict.fromkeys(diagnosed.axis_title(r.axis) for r in regions))
         sentence += f" Shaded: {shaded} in the located region."
+    # the page's script subtracts: "measured-before" is what the model predicts
     series = {"measured": trace.torque, "before": trace.before} | ({"after": after} if after is not None else {})
+    if has_position:
+        series["position"] = trace.position
     return Case(draw, arguments, f"{study.effort.capitalize()} of {trace.recording}", sentence, wide=True,
                 traces={"time": trace.time, "series": series, "guide": trace.before, "guided_by": "residual"})
 

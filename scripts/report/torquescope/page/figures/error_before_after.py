@@ -1,4 +1,4 @@
-"""The relative error before and after, in training, in blocked cross-validation and unseen, with the floor; from
+"""The relative error before and after, in training, in blocked cross-validation and validation, with the floor; from
 zero."""
 
 import numpy as np
@@ -50,7 +50,7 @@ def rows_of(joint):
     # no floor was worked out for blocks of the training recording
     rows = [("train", joint.train_relerr, joint.augmented_train_relerr, joint.train_floor_relerr),
             ("blocked CV", joint.cv_relerr, joint.augmented_cv_relerr, np.nan),
-            ("unseen", joint.validation_relerr, joint.augmented_validation_relerr, joint.floor_relerr)]
+            ("validation", joint.validation_relerr, joint.augmented_validation_relerr, joint.floor_relerr)]
     return [
         (label, before, after if changed else np.nan, floor)
         for label, before, after, floor in rows
@@ -64,14 +64,14 @@ def cases(study):
 
 
 def _case(rows):
-    unseen = any(label == "unseen" for label, *_ in rows)
+    unseen = any(label == "validation" for label, *_ in rows)
     sentence = "Norm of the residual over norm of the measured signal"
     if any(np.isfinite(floor) for *_, floor in rows):
         sentence += "; grey bar: the floor, which a complete model would reach"
     return Case(
         draw,
         {"rows": rows},
-        "Error in training and unseen" if unseen else "Error in training",
+        "Error in training and validation" if unseen else "Error in training",
         f"{sentence}.",
         wide=True,
     )

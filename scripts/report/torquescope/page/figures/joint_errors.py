@@ -1,4 +1,4 @@
-"""Relative error of every joint on the training and on the unseen recording; the axis starts at zero."""
+"""Relative error of every joint on the training and on the validation recording; the axis starts at zero."""
 
 from . import Case, relative_error
 from .. import style

@@ -1,4 +1,4 @@
-"""What the model leaves at each joint over its speed: a wrong friction law shows as a shape here."""
+"""What the model leaves at each joint over its speed: a wrong friction model shows as a shape here."""
 
 from .. import quantities, style
 from . import Case, residual_by_speed

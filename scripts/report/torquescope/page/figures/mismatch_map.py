@@ -1,4 +1,4 @@
-"""Where the model is wrong: one row per axis, colour = mean residual over the spread of the clean twins there."""
+"""Where the model is wrong: one row per axis, colour = mean residual over the spread of the replicates there."""
 
 import numpy as np
 from matplotlib.patches import Rectangle
@@ -8,6 +8,10 @@ from . import Case
 from .decision_surface import cells
 
 LIMITS = (2.5, 5.0, 10.0, 20.0)  # spreads of the twins from which on a step is drawn; below the first lies chance
+AXIS_KEYS = {
+    "since reversal": "Since reversal: how far the joint went since its motion, or its torque, last changed sign.",
+    "order": "Order of angle: waves in a turn of the joint.",
+}
 NARROW_CELLS = 22
 ROW, LABEL = 20, 16
 BOLD_EM = 1.15 * style.EM
@@ -21,7 +25,7 @@ def draw(rows, width=style.WIDE):
     lines = [_Line(row, narrow) for row in rows]
     canvas = style.Canvas(width, 26 + sum(line.height for line in lines) + (76 if narrow else 40))
     if not narrow:
-        canvas.text(width, 14, "residual beyond the twins", ha="right")
+        canvas.text(width, 14, "residual beyond the replicates", ha="right")
     top, longest = 26, max([0.01] + [line.share for line in lines if np.isfinite(line.share)])
     for line in lines:
         top += line.height
@@ -55,7 +59,7 @@ def _cell_words(line, first, stop):
     if not np.isfinite(z):
         return f"{line.name} {place}: nothing measured"
     way = "" if line.is_spectrum or abs(z) < LIMITS[0] else f", model asks too {'little' if z > 0 else 'much'}"
-    return f"{line.name} {place}: {quantities.fixed(z, 1)} spreads of the twins{way}"
+    return f"{line.name} {place}: {quantities.fixed(z, 1)} spreads of the replicates{way}"
 
 
 def _levels(z):
@@ -175,10 +179,10 @@ def _legend(canvas, top, narrow):
     limits = [quantities.tick(limit) for limit in LIMITS]
     for k, limit in enumerate([*reversed(limits), *limits], start=1):
         canvas.text(left + k * step, top + 28, limit, ha="center", fontsize=10.5)
-    canvas.text(left - 8, top + 28, "spreads" if narrow else "spreads of the twins", ha="right")
+    canvas.text(left - 8, top + 28, "spreads" if narrow else "spreads of the replicates", ha="right")
     # spectra have one side only: more than the twins
     left, top = (174, top + 38) if narrow else (938, top)
-    canvas.text(left - 8, top + 12, "spectra: beyond the twins", ha="right")
+    canvas.text(left - 8, top + 12, "spectra: beyond" if narrow else "spectra: beyond the replicates", ha="right")
     _swatches(canvas, left, top + 1, [_colour(level, True) for level in range(5)], step)
     for k, limit in enumerate(limits, start=1):
         canvas.text(left + k * step, top + 28, limit, ha="center", fontsize=10.5)
@@ -199,9 +203,9 @@ def cases(study):
         if rows:
             name = diagnosed.figure_name(study, joint, "mismatch_map")
             sentence = (
-                f"Mean residual of the baseline along each axis, in spreads of {quantities.whole(joint.twins)} clean "
-                "twins; "
-                "grey: no more than chance; blank: nothing measured; framed: located."
+                f"Mean residual of the baseline along each axis, in spreads of {quantities.whole(joint.twins)} "
+                "replicates; grey: no more than chance; blank: nothing measured; framed: located."
+                + _axis_keys(rows)
             )
             found[name] = Case(draw, {"rows": rows}, "The mismatch map", sentence, wide=True)
         if study.diagnosis.verdict == "partly" and (left := _left(joint)):
@@ -212,6 +216,13 @@ def cases(study):
             )
             found[name] = Case(draw, {"rows": left}, "What is left", sentence, wide=True)
     return found
+
+
+def _axis_keys(rows):
+    """What the axes are that are no recorded channel."""
+    names = [name for name, *_ in rows]
+    said = [text for name, text in AXIS_KEYS.items() if any(one.startswith(name) for one in names)]
+    return " " + " ".join(said) if said else ""
 
 
 def _left(joint):

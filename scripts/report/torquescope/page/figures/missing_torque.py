@@ -7,7 +7,7 @@ from . import Case
 
 
 def draw(axis_words, unit, at, partial, modelled, spread, regions, value_unit, width=style.SMALL):
-    """Arrays [cell]: the effect and what is left, the effect, the spread of one clean twin's mean; regions: [(from,
+    """Arrays [cell]: the effect and what is left, the effect, the spread of one replicate's mean; regions: [(from,
     to)]."""
     canvas = style.Canvas(width, 238)
     axes = canvas.axes(54, 8, width - 14, 188)
@@ -23,7 +23,7 @@ def draw(axis_words, unit, at, partial, modelled, spread, regions, value_unit, w
         color=style.LIGHT["floor"],
         linewidth=0,
         zorder=0.5,
-        label="one clean twin, 95 %",
+        label="one replicate, 95 %",
     )
     axes.axhline(0, color=style.LIGHT["muted"], linewidth=1, zorder=1)
     axes.plot(at, modelled, color=style.LIGHT["augmented"], linewidth=2.2, label="as modelled")

@@ -1,4 +1,4 @@
-"""Relative error of every estimator on the training and on the unseen recording; the axis starts at zero."""
+"""Relative error of every estimator on the training and on the validation recording; the axis starts at zero."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ ROW, NARROW_ROW = 34, 44
 
 
 def draw(rows, width=style.WIDE):
-    """rows: [(label, train, unseen, colour)] as fractions; unseen NaN when there is none."""
+    """rows: [(label, train, validation, colour)] as fractions; validation NaN when there is none."""
     narrow = width < style.WIDE
     row = NARROW_ROW if narrow else ROW
     canvas = style.Canvas(width, 34 + row * len(rows) + 46)
@@ -20,7 +20,7 @@ def draw(rows, width=style.WIDE):
     largest = 100 * max(np.nanmax([train, unseen]) for _, train, unseen, _ in rows)
     for index, (label, train, unseen, colour) in enumerate(rows):
         y = -index - (0.15 if narrow else 0)
-        for value, where in ((train, "training"), (unseen, "unseen")):
+        for value, where in ((train, "training"), (unseen, "validation")):
             if np.isfinite(value):
                 readings.note(axes, f"{label}, {where}: {quantities.percent(value, 3)}", at=(100 * value, y))
         if np.isfinite(unseen):
@@ -38,7 +38,7 @@ def draw(rows, width=style.WIDE):
     axes.set(xlim=(0, 1.06 * largest), ylim=(-len(rows) + 0.5, 0.5), yticks=[])
     axes.set_xlabel(f"relative error (% of {'the signal' if narrow else 'the measured signal'})", labelpad=3)
     style.few_ticks(axes.xaxis, 4 if narrow else 8)
-    canvas.text(0 if narrow else left, 16, "○ training   ● unseen")
+    canvas.text(0 if narrow else left, 16, "○ training   ● validation")
     return canvas.figure
 
 
@@ -52,4 +52,4 @@ def cases(study):
     sentence = "Norm of the residual over norm of the measured signal; the median run of each search."
     if study.rolled:
         sentence += f" Of {quantities.listed(e.short for e in study.rolled)}: of all samples, simulated."
-    return {"relative_error": Case(draw, {"rows": rows}, "Training and unseen", sentence, wide=True)}
+    return {"relative_error": Case(draw, {"rows": rows}, "Training and validation", sentence, wide=True)}

@@ -64,7 +64,7 @@ def finer(unit, limit):
 
 
 def cases(study):
-    """Unseen recordings first; of each one figure with position and effort, and one of the velocity. Of a set of
+    """Validation recordings first; of each one figure with position and effort, and one of the velocity. Of a set of
     recordings of servos, which are many, the first alone."""
     found = {}
     for name, one, caption in _captioned(study) if study.replay else ():

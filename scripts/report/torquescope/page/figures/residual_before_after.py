@@ -1,4 +1,4 @@
-"""The mean residual along one axis before and after the named effects, over what clean twins show; below, the time
+"""The mean residual along one axis before and after the named effects, over what replicates show; below, the time
 spent there."""
 
 import math
@@ -11,7 +11,7 @@ from . import Case
 
 def draw(axis_words, unit, centre, before, after, low, high, samples, outside, regions, is_spectrum, after_words,
          value_unit, width=style.SMALL):
-    """Arrays [cell], NaN where nothing was measured; after: None without one; low, high: the twins' band; outside:
+    """Arrays [cell], NaN where nothing was measured; after: None without one; low, high: the replicates' band; outside:
     cells beyond it; regions: [(from, to)]."""
     canvas = style.Canvas(width, 238)
     axes = canvas.axes(54, 8, width - 14, 158)
@@ -23,7 +23,7 @@ def draw(axis_words, unit, centre, before, after, low, high, samples, outside, r
             label="located region"
         )
     axes.fill_between(centre, low, high, color=style.LIGHT["floor"], linewidth=0, zorder=0.5,
-                      label="clean twins, 95 %")
+                      label="replicates, 95 %")
     axes.axhline(0, color=style.LIGHT["muted"], linewidth=1, zorder=1)
     axes.plot(centre, before, color=style.LIGHT["baseline"], linewidth=1.2, label="baseline")
     axes.plot(
@@ -109,7 +109,7 @@ def cases(study):
 
 
 def _sentence(unit):
-    return f"Mean residual in {unit}; dots: outside what 95 % of the clean twins show."
+    return f"Mean residual in {unit}; dots: outside what 95 % of the replicates show."
 
 
 def _not_here(study, joint, row, rival, unit):

@@ -1,4 +1,4 @@
-"""What the model leaves over the speed: a wrong friction law shows as a shape here."""
+"""What the model leaves over the speed: a wrong friction model shows as a shape here."""
 
 import numpy as np
 

@@ -36,8 +36,8 @@ def cases(board):
         )
     if ours["gap_closed"]:
         said = (
-            f"Unseen recording, {quantities.count(len(ours['gap_closed']), 'case')} of SNR 1 or more, 100 %: as good "
-            "as the true "
+            f"Validation recording, {quantities.count(len(ours['gap_closed']), 'case')} of SNR 1 or more, 100 %: as "
+            "good as the true "
             "model. What is not found closes nothing; what is worse than −20 % stands there. Line: median; dashed: "
             "pass level, 80 %."
         )

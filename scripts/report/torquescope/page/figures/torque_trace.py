@@ -68,7 +68,7 @@ def cases(study):
             "symbol": study.symbol,
             "unit": quantities.unit(study.effort_unit),
         }
-        which = "the unseen recording" if part == "validate" else "the training recording"
+        which = "the validation recording" if part == "validate" else "the training recording"
         start, stop = arguments["window"]
         opened = "" if stop - start >= time[-1] - time[0] else " Opened on the six seconds with most reversals."
         sentence = (f"Grey: measured. Below, what each estimate leaves; band: ±2 standard deviations of the "
