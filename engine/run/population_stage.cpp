@@ -66,7 +66,12 @@ SavedRuns find_saved_runs(Experiment const& experiment, IdentifyOptions const& o
   for (auto const& plan : experiment.parts().estimators)
     if (!plan.is_closed_form()) request.searches[plan.label] = search_sha256(experiment.parts(), plan);
   request.allow_mixed = options.allow_mixed;
-  if (options.shard.count > 1) request.wanted = [shard = options.shard](std::size_t run) { return shard.has(run); };
+  if (options.shard.count > 1) {
+    auto const runs = static_cast<std::size_t>(experiment.parts().experiment.runs);
+    request.wanted = [first = options.shard.first(runs), end = options.shard.end(runs)](std::size_t run) {
+      return run >= first && run < end;
+    };
+  }
   return SavedRuns(request);
 }
 
@@ -202,8 +207,8 @@ HistoryShape history_shape(Experiment::Parts const& parts, EstimatorPlan const& 
 
 std::vector<std::size_t> runs_of_shard(Experiment::Parts const& parts, ShardChoice const& shard) {
   std::vector<std::size_t> runs;
-  for (std::size_t run = 0; run < static_cast<std::size_t>(parts.experiment.runs); ++run)
-    if (shard.has(run)) runs.push_back(run);
+  auto const n_runs = static_cast<std::size_t>(parts.experiment.runs);
+  for (std::size_t run = shard.first(n_runs); run < shard.end(n_runs); ++run) runs.push_back(run);
   return runs;
 }
 

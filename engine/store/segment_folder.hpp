@@ -25,7 +25,9 @@ struct ShardChoice {
   std::size_t index = 0, count = 1;
   std::string reason{};  // "--shard", "SLURM_ARRAY_TASK_ID"; "" when the job is not divided
 
-  bool has(std::size_t run) const { return run % count == index; }
+  // its runs of so many, [first, end): neighbours, so that merging reads one segment after the other
+  std::size_t first(std::size_t runs) const { return runs * index / count; }
+  std::size_t end(std::size_t runs) const { return runs * (index + 1) / count; }
 };
 
 std::filesystem::path segment_folder_of(std::filesystem::path const& result);

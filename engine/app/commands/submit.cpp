@@ -229,7 +229,8 @@ void add_submit(CLI::App& app, ChosenCommand& chosen) {
       ->check(no_sbatch_option);
   add_result_option(*command, arguments->out);
   command
-      ->add_option("--shards", arguments->shards, "tasks of the array; each does every Nth run, in minutes not seconds")
+      ->add_option("--shards", arguments->shards,
+                   "tasks of the array; each does its part of the runs, in minutes not seconds")
       ->type_name("N")
       ->required()
       ->check(no_shard_count)

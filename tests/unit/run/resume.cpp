@@ -103,14 +103,15 @@ TEST(Merge, WithoutAllRunsSaysWhichAndWritesNothing) {
   } catch (Error const& error) {
     EXPECT_EQ(error.code(), ExitCode::stopped);
     EXPECT_EQ(error.problems().front().notes.front(),
-              "de 0, 2 to 3; fade 0, 2 to 3; jde 0, 2 to 3; jade 0, 2 to 3; lshade 0, 2 to 3; cmaes 0, 2 to 3");
+              "de 0, 3 to 4; fade 0, 3 to 4; jde 0, 3 to 4; jade 0, 3 to 4; lshade 0, 3 to 4; cmaes 0, 3 to 4");
   }
   EXPECT_FALSE(fs::exists(options.output));
   merge(test::load_job(job), options, Completeness::partial, {});
   ResultReader const partial(options.output);
   EXPECT_EQ(partial.attribute<std::int64_t>("/runs/fade", "missing_runs"), 3);
   EXPECT_EQ(partial.texts("/runs/fade/stop_reason")[0], "missing");
-  EXPECT_EQ(partial.attribute<std::int64_t>("/runs/fade", "median_run") % 3, 1) << "one that is there";
+  auto const median_run = partial.attribute<std::int64_t>("/runs/fade", "median_run");
+  EXPECT_TRUE(median_run == 1 || median_run == 2) << median_run << " is not there";
   EXPECT_GT(partial.attribute<double>("/runs/fade", "mse_median"), 0.0);
 }
 
