@@ -84,6 +84,7 @@ TEST(Merge, OfAnyShardsWritesTheSameFile) {
     JobStatus const status = read_status(segment_folder_of(output));
     ASSERT_EQ(status.estimators.size(), 6u);
     for (auto const& estimator : status.estimators) EXPECT_EQ(estimator.ended, 5);
+    EXPECT_TRUE(status.unfinished_shares.empty());
     merge(test::load_job(job), options_for(output, 2), Completeness::whole, {});
     EXPECT_TRUE(test::bytes_of(output) == whole) << count << " shards";
     EXPECT_EQ(ResultReader(output).verify(), ResultReader(folder / "whole.h5").content_sha256());
@@ -97,6 +98,9 @@ TEST(Merge, WithoutAllRunsSaysWhichAndWritesNothing) {
   options.shard = {1, 3, "test"};
   run_shard(test::load_job(job), options, {});
   options.shard = {};
+  JobStatus const status = read_status(segment_folder_of(options.output));
+  EXPECT_EQ(status.unfinished_shares, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(status.shares, 3u);
   try {
     merge(test::load_job(job), options, Completeness::whole, {});
     FAIL();
@@ -104,6 +108,8 @@ TEST(Merge, WithoutAllRunsSaysWhichAndWritesNothing) {
     EXPECT_EQ(error.code(), ExitCode::stopped);
     EXPECT_EQ(error.problems().front().notes.front(),
               "de 0, 3 to 4; fade 0, 3 to 4; jde 0, 3 to 4; jade 0, 3 to 4; lshade 0, 3 to 4; cmaes 0, 3 to 4");
+    EXPECT_EQ(error.problems().front().notes.back(),
+              "they are of shards 0, 2 of 3: torquescope run JOB.toml --shard 0/3");
   }
   EXPECT_FALSE(fs::exists(options.output));
   merge(test::load_job(job), options, Completeness::partial, {});
