@@ -319,6 +319,8 @@ IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Comp
     problem.code = ExitCode::stopped;
     problem.what = fmt::format("{} of {} runs are missing: nothing was merged", count, attempt.runs_total);
     problem.notes = {missing};
+    if (auto const shards = words_of_missing_shards(experiment.parts(), attempt.saved); !shards.empty())
+      problem.notes.push_back(shards);
     problem.help = "run their shards again, or `torquescope run` the job to do all that is missing; or --partial";
     throw Error(problem);
   }

@@ -267,6 +267,25 @@ void stop_and_save(Attempt& attempt) {
   throw Error(problem);
 }
 
+std::string words_of_missing_shards(Experiment::Parts const& parts, SavedRuns const& saved) {
+  auto const& origins = saved.origins();
+  if (origins.empty() || origins.front().shard_count < 2) return "";
+  std::size_t const shards = origins.front().shard_count;
+  auto const is_of_them = [&](SegmentOrigin const& origin) { return origin.shard_count == shards; };
+  if (!std::all_of(origins.begin(), origins.end(), is_of_them)) return "";
+  auto const has_ended = [&](std::size_t run) {
+    return std::all_of(parts.estimators.begin(), parts.estimators.end(), [&](EstimatorPlan const& plan) {
+      return plan.is_closed_form() || saved.has_ended(plan.label, run);
+    });
+  };
+  auto missing = unfinished_shares(static_cast<std::size_t>(parts.experiment.runs), shards, has_ended);
+  constexpr std::size_t most_shards = 12;
+  bool const cut = missing.size() > most_shards;
+  if (cut) missing.resize(most_shards);
+  return fmt::format("they are of shards {}{} of {}: torquescope run JOB.toml --shard {}/{}", fmt::join(missing, ", "),
+                     cut ? ", ..." : "", shards, missing.front(), shards);
+}
+
 std::string missing_runs(Experiment::Parts const& parts, SavedRuns const& saved, std::size_t& count) {
   std::vector<std::string> words;
   count = 0;
