@@ -21,18 +21,17 @@ std::string squared(std::string const& unit) {
 
 struct HistoryDataset {
   char const* name;
-  std::vector<double> RunHistory::*values;
   Note note;
 };
 
-std::vector<HistoryDataset> per_generation(std::string const& torque_unit = "") {
+std::vector<HistoryDataset> per_generation(std::string const& torque_unit) {
   return {
-      {"F", &RunHistory::F, {"1", "mutation factor"}},
-      {"CR", &RunHistory::CR, {"1", "crossover rate"}},
-      {"PC", &RunHistory::PC, {"1", "parameter change", "FADE eq. 8"}},
-      {"FC", &RunHistory::FC, {"1", "function value change", "FADE eq. 8"}},
-      {"best", &RunHistory::best, {squared(torque_unit), "best fitness so far, as MSE"}},
-      {"gap_history", &RunHistory::gap, {squared(torque_unit), "best MSE above the least-squares floor"}},
+      {"F", {"1", "mutation factor"}},
+      {"CR", {"1", "crossover rate"}},
+      {"PC", {"1", "parameter change", "FADE eq. 8"}},
+      {"FC", {"1", "function value change", "FADE eq. 8"}},
+      {"best", {squared(torque_unit), "best fitness so far, as MSE"}},
+      {"gap_history", {squared(torque_unit), "best MSE above the least-squares floor"}},
   };
 }
 
@@ -107,13 +106,21 @@ void declare_histories(ResultWriter& writer, std::string const& label, HistorySh
 void write_history(ResultWriter& writer, std::string const& label, std::size_t run,
                    std::shared_ptr<RunHistory const> const& history) {
   std::string const group = group_of(label) + "/";
-  if (!history->fitness.empty()) {
-    writer.write_run(group + "population", run, history->population, history);
-    writer.write_run(group + "fitness", run, history->fitness, history);
-  }
-  for (auto const& dataset : per_generation())
-    writer.write_run(group + dataset.name, run, (*history).*dataset.values, history);
+  for (auto const& list : history_lists)
+    if (auto const& values = (*history).*list.values; !values.empty())
+      writer.write_run(group + list.name, run, values, history);
   writer.write_run(group + "evaluations", run, history->evaluations);
+}
+
+void write_histories(ResultWriter& writer, std::string const& label, std::size_t first, StoredRuns const& runs) {
+  std::string const group = group_of(label) + "/";
+  std::vector<ResultWriter::RunsOfList> lists;
+  for (std::size_t i = 0; i < history_lists.size(); ++i)
+    if (auto const& list = runs.histories[i]; !list.values.empty())
+      lists.push_back({group + history_lists[i].name, h5::Element::number, std::as_bytes(list.values), list.owner});
+  lists.push_back({group + "evaluations", h5::Element::whole_number, std::as_bytes(runs.evaluations.values),
+                   runs.evaluations.owner});
+  writer.write_runs(first, runs.count, lists);
 }
 
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,

@@ -14,6 +14,7 @@
 #include "engine/run/estimator_plan.hpp"
 #include "engine/run/run_part.hpp"
 #include "engine/run/run_summary.hpp"
+#include "engine/run/segment_file.hpp"
 #include "engine/store/result_writer.hpp"
 
 namespace torquescope {
@@ -24,6 +25,8 @@ void declare_histories(ResultWriter& writer, std::string const& label, HistorySh
 // the writer may keep it for a while
 void write_history(ResultWriter& writer, std::string const& label, std::size_t run,
                    std::shared_ptr<RunHistory const> const& history);
+// of neighbouring runs from `first` on
+void write_histories(ResultWriter& writer, std::string const& label, std::size_t first, StoredRuns const& runs);
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,
                    std::string const& torque_unit, std::vector<std::string> const& parameters);
 

@@ -125,6 +125,19 @@ RunHistory missing_history(HistoryShape const& shape) {
   return history;
 }
 
+std::span<double const> history_of(StoredRuns const& runs, std::vector<double> RunHistory::*values) {
+  for (std::size_t i = 0; i < history_lists.size(); ++i)
+    if (history_lists[i].values == values) return runs.histories[i].values;
+  return {};
+}
+
+// whose histories are some blocks of a result: fewer cost more calls, more cost memory
+std::size_t runs_at_once(HistoryShape const& shape) {
+  constexpr std::size_t bytes = std::size_t{512} << 10;
+  std::size_t const bytes_of_run = (shape.generations + 1) * shape.members * shape.parameters * sizeof(double);
+  return std::clamp<std::size_t>(bytes / std::max<std::size_t>(1, bytes_of_run), 1, 1000);
+}
+
 RunResults run_population_method(Study const& study, EstimatorPlan const& plan) {
   auto const& parts = study.parts;
   auto const choice = fitness_choice(parts, plan);
@@ -133,26 +146,54 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
   RunResults results;
   LastStates last_states;
   std::vector<double> PC, FC;  // of estimators with a controller
+  auto const keep = [&](std::span<double const> best, double last_gap, std::string const& reason,
+                        std::int64_t evaluations, std::int64_t nonfinite) {
+    Eigen::VectorXd const parameters =
+        Eigen::Map<Eigen::VectorXd const>(best.data(), static_cast<Eigen::Index>(shape.parameters));
+    keep_run(plan.rolls_out() ? last_gap : gap_to_floor(study, parameters), parameters, reason, evaluations, nonfinite,
+             results);
+  };
   auto const commit = [&](std::size_t run, std::shared_ptr<RunHistory const> const& history) {
     write_history(study.writer, plan.label, run, history);
-    Eigen::VectorXd const parameters =
-        Eigen::Map<Eigen::VectorXd const>(history->parameters.data(), static_cast<Eigen::Index>(shape.parameters));
-    keep_run(plan.rolls_out() ? history->gap.back() : gap_to_floor(study, parameters), parameters, history->stop_reason,
-             history->evaluations.back(), history->nonfinite, results);
+    keep(history->parameters, history->gap.back(), history->stop_reason, history->evaluations.back(),
+         history->nonfinite);
     last_states.add(history->last_state);
     if (!plan.controller) return;
     PC.insert(PC.end(), history->PC.begin(), history->PC.end());
     FC.insert(FC.end(), history->FC.begin(), history->FC.end());
   };
+  auto const commit_stored = [&](std::size_t first, StoredRuns const& runs) {
+    write_histories(study.writer, plan.label, first, runs);
+    std::size_t const entries = shape.generations + 1;
+    auto const gaps = history_of(runs, &RunHistory::gap);
+    for (std::size_t i = 0; i < runs.count; ++i) {
+      std::size_t const last = (i + 1) * entries - 1;
+      keep(runs.parameters.values.subspan(i * shape.parameters, shape.parameters), gaps[last], runs.stop_reasons[i],
+           runs.evaluations.values[last], runs.nonfinite.values[i]);
+      last_states.add(runs.last_states[i]);
+    }
+    if (!plan.controller) return;
+    for (auto const& [kept, list] : {std::pair{&PC, &RunHistory::PC}, {&FC, &RunHistory::FC}}) {
+      auto const values = history_of(runs, list);
+      kept->insert(kept->end(), values.begin(), values.end());
+    }
+  };
   if (!study.merges) {
     run_population({parts, plan, choice, study.floor, study.progress, study.attempt}, runs_of_shard(parts, {}), commit);
   } else {
     StageProgress progress(study.progress, plan.label, parts.experiment.runs, 0);
-    for (std::size_t run = 0; run < shape.runs; ++run) {
+    for (std::size_t run = 0; run < shape.runs;) {
+      if (auto const stored = study.attempt.saved.load_stored(plan.label, shape, run, runs_at_once(shape))) {
+        commit_stored(run, *stored);
+        for (std::size_t i = 0; i < stored->count; ++i) progress.count_run();
+        run += stored->count;
+        continue;
+      }
       auto part = study.attempt.saved.load(plan.label, shape, run);
       bool const is_there = part && part->ended;
       commit(run, std::make_shared<RunHistory const>(is_there ? std::move(part->history) : missing_history(shape)));
       progress.count_run();
+      ++run;
     }
   }
   if (plan.rolls_out())
@@ -279,6 +320,8 @@ IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Comp
     problem.code = ExitCode::stopped;
     problem.what = fmt::format("{} of {} runs are missing: nothing was merged", count, attempt.runs_total);
     problem.notes = {missing};
+    if (auto const shards = words_of_missing_shards(experiment.parts(), attempt.saved); !shards.empty())
+      problem.notes.push_back(shards);
     problem.help = "run their shards again, or `torquescope run` the job to do all that is missing; or --partial";
     throw Error(problem);
   }

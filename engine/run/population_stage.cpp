@@ -66,7 +66,12 @@ SavedRuns find_saved_runs(Experiment const& experiment, IdentifyOptions const& o
   for (auto const& plan : experiment.parts().estimators)
     if (!plan.is_closed_form()) request.searches[plan.label] = search_sha256(experiment.parts(), plan);
   request.allow_mixed = options.allow_mixed;
-  if (options.shard.count > 1) request.wanted = [shard = options.shard](std::size_t run) { return shard.has(run); };
+  if (options.shard.count > 1) {
+    auto const runs = static_cast<std::size_t>(experiment.parts().experiment.runs);
+    request.wanted = [first = options.shard.first(runs), end = options.shard.end(runs)](std::size_t run) {
+      return run >= first && run < end;
+    };
+  }
   return SavedRuns(request);
 }
 
@@ -202,8 +207,8 @@ HistoryShape history_shape(Experiment::Parts const& parts, EstimatorPlan const& 
 
 std::vector<std::size_t> runs_of_shard(Experiment::Parts const& parts, ShardChoice const& shard) {
   std::vector<std::size_t> runs;
-  for (std::size_t run = 0; run < static_cast<std::size_t>(parts.experiment.runs); ++run)
-    if (shard.has(run)) runs.push_back(run);
+  auto const n_runs = static_cast<std::size_t>(parts.experiment.runs);
+  for (std::size_t run = shard.first(n_runs); run < shard.end(n_runs); ++run) runs.push_back(run);
   return runs;
 }
 
@@ -260,6 +265,25 @@ void stop_and_save(Attempt& attempt) {
     problem.notes = {"and so is what others had begun, in " + segment_folder_of(options.output).string()};
   problem.help = "run the same command again to continue";
   throw Error(problem);
+}
+
+std::string words_of_missing_shards(Experiment::Parts const& parts, SavedRuns const& saved) {
+  auto const& origins = saved.origins();
+  if (origins.empty() || origins.front().shard_count < 2) return "";
+  std::size_t const shards = origins.front().shard_count;
+  auto const is_of_them = [&](SegmentOrigin const& origin) { return origin.shard_count == shards; };
+  if (!std::all_of(origins.begin(), origins.end(), is_of_them)) return "";
+  auto const has_ended = [&](std::size_t run) {
+    return std::all_of(parts.estimators.begin(), parts.estimators.end(), [&](EstimatorPlan const& plan) {
+      return plan.is_closed_form() || saved.has_ended(plan.label, run);
+    });
+  };
+  auto missing = unfinished_shares(static_cast<std::size_t>(parts.experiment.runs), shards, has_ended);
+  constexpr std::size_t most_shards = 12;
+  bool const cut = missing.size() > most_shards;
+  if (cut) missing.resize(most_shards);
+  return fmt::format("they are of shards {}{} of {}: torquescope run JOB.toml --shard {}/{}", fmt::join(missing, ", "),
+                     cut ? ", ..." : "", shards, missing.front(), shards);
 }
 
 std::string missing_runs(Experiment::Parts const& parts, SavedRuns const& saved, std::size_t& count) {

@@ -60,6 +60,8 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
 // writes what the attempt has kept and says how to go on; throws Error 75
 [[noreturn]] void stop_and_save(Attempt& attempt);
 
+// "they are of shards 3, 7 of 20: ..."; "" where segments are not of one division of the job
+std::string words_of_missing_shards(Experiment::Parts const& parts, SavedRuns const& saved);
 // runs of the whole job that no segment has to their end, in words: "fade 3, 7, 11 to 14"; "" when there is none
 std::string missing_runs(Experiment::Parts const& parts, SavedRuns const& saved, std::size_t& count);
 

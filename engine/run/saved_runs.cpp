@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/error.hpp"
@@ -15,6 +16,8 @@ namespace {
 // descriptors: systems allow 1024 by default
 constexpr std::size_t most_open_files = 200;
 constexpr std::size_t fewest_kept = 16;
+// a segment that ends so many runs before the one that is asked for is done with: threads are never that far apart
+constexpr std::size_t runs_under_way = 1000;
 // of all segments that are kept. 64 KiB are some small runs: less would read each chunk too often
 constexpr std::size_t most_bytes_ahead = std::size_t{256} << 20, least_bytes_ahead = std::size_t{64} << 10;
 constexpr int most_listings = 10;
@@ -77,7 +80,7 @@ void SavedRuns::read_all() {
   for (int listing = 1;; ++listing) {
     files_.clear();
     open_.clear();
-    runs_.clear();
+    pieces_.clear();
     origins_.clear();
     warnings_.clear();
     mixed_ = false;
@@ -88,11 +91,10 @@ void SavedRuns::read_all() {
     if (is_whole || listing == most_listings) break;
   }
   n_shards_ = shards();
-  for (auto& [label, runs] : runs_)
-    for (auto& [run, pieces] : runs)
-      std::stable_sort(pieces.begin(), pieces.end(), [](auto const& a, auto const& b) {
-        return a.first != b.first ? a.first < b.first : a.end > b.end;
-      });
+  for (auto& [label, pieces] : pieces_)
+    std::sort(pieces.begin(), pieces.end(), [](Piece const& a, Piece const& b) {
+      return std::tie(a.run, a.first, b.end, a.file, a.entry) < std::tie(b.run, b.first, a.end, b.file, b.entry);
+    });
 }
 
 // false: a segment that was listed is gone
@@ -145,30 +147,33 @@ void SavedRuns::take(SegmentFile const& file, std::size_t index) {
   for (auto const& [label, estimator] : file.estimators())
     for (std::size_t i = 0; i < estimator.entries.size(); ++i) {
       auto const& entry = estimator.entries[i];
-      runs_[label][entry.run].push_back({index, i, entry.first, entry.first + entry.count, entry.ended});
+      pieces_[label].push_back({entry.run, static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(i),
+                                static_cast<std::uint32_t>(entry.first),
+                                static_cast<std::uint32_t>(entry.first + entry.count), entry.ended});
     }
 }
 
-SavedRuns::Pieces const* SavedRuns::find(std::string const& label, std::size_t run) const {
-  auto const runs = runs_.find(label);
-  if (runs == runs_.end()) return nullptr;
-  auto const pieces = runs->second.find(run);
-  return pieces == runs->second.end() ? nullptr : &pieces->second;
+SavedRuns::PiecesOfRun SavedRuns::find(std::string const& label, std::size_t run) const {
+  auto const known = pieces_.find(label);
+  if (known == pieces_.end()) return {};
+  auto const first = std::lower_bound(known->second.begin(), known->second.end(), run,
+                                      [](Piece const& piece, std::size_t wanted) { return piece.run < wanted; });
+  auto last = first;
+  while (last != known->second.end() && last->run == run) ++last;
+  return {first, last};
 }
 
 std::size_t SavedRuns::generations(std::string const& label, std::size_t run) const {
   std::size_t end = 0;
-  if (Pieces const* pieces = find(label, run))
-    for (auto const& piece : *pieces)
-      if (piece.first <= end) end = std::max(end, piece.end);
+  for (auto const& piece : find(label, run))
+    if (piece.first <= end) end = std::max<std::size_t>(end, piece.end);
   return end;
 }
 
 bool SavedRuns::has_ended(std::string const& label, std::size_t run) const {
-  Pieces const* pieces = find(label, run);
-  if (!pieces) return false;
+  auto const pieces = find(label, run);
   std::size_t const end = generations(label, run);
-  return std::any_of(pieces->begin(), pieces->end(), [&](Piece const& p) { return p.ended && p.end <= end; });
+  return std::any_of(pieces.begin(), pieces.end(), [&](Piece const& p) { return p.ended && p.end <= end; });
 }
 
 std::size_t SavedRuns::shards() const {
@@ -178,24 +183,31 @@ std::size_t SavedRuns::shards() const {
 }
 
 // Neighbouring runs are of different shards, so one segment of each stays; those asked for longest ago are done with
-SegmentFile& SavedRuns::opened(std::size_t file) {
+SegmentFile& SavedRuns::opened(Piece const& piece) {
+  std::size_t const file = piece.file;
   auto known = open_.find(file);
   if (known == open_.end()) {
+    std::erase_if(open_, [&](auto const& one) { return one.second.last_run + runs_under_way < piece.run; });
     if (open_.size() >= std::max(fewest_kept, n_shards_))
       open_.erase(std::min_element(open_.begin(), open_.end(),
                                    [](auto const& a, auto const& b) { return a.second.asked < b.second.asked; }));
     std::size_t const ahead =
         std::clamp(most_bytes_ahead / std::max(fewest_kept, n_shards_), least_bytes_ahead, SegmentFile::most_ahead);
-    known = open_.emplace(file, Opened{std::make_unique<SegmentFile>(files_[file], ahead), 0}).first;
+    auto segment = std::make_unique<SegmentFile>(files_[file], ahead);
+    std::size_t last_run = 0;
+    for (auto const& [label, index] : segment->estimators())
+      for (auto const& entry : index.entries) last_run = std::max(last_run, entry.run);
+    known = open_.emplace(file, Opened{std::move(segment), 0, last_run}).first;
   }
   known->second.asked = ++n_asked_;
   return *known->second.file;
 }
 
-std::optional<RunPart> SavedRuns::load(std::string const& label, HistoryShape const& shape, std::size_t run) {
+template <class Load>
+auto SavedRuns::listing_again(Load&& load) -> decltype(load()) {
   for (int listing = 1;; ++listing) {
     try {
-      return load_now(label, shape, run);
+      return load();
     } catch (Error const& error) {
       if (error.code() != ExitCode::no_input || listing == most_listings) throw;
     }
@@ -203,9 +215,39 @@ std::optional<RunPart> SavedRuns::load(std::string const& label, HistoryShape co
   }
 }
 
+std::optional<RunPart> SavedRuns::load(std::string const& label, HistoryShape const& shape, std::size_t run) {
+  return listing_again([&] { return load_now(label, shape, run); });
+}
+
+std::optional<StoredRuns> SavedRuns::load_stored(std::string const& label, HistoryShape const& shape, std::size_t run,
+                                                 std::size_t most) {
+  return listing_again([&] { return load_stored_now(label, shape, run, most); });
+}
+
+std::optional<StoredRuns> SavedRuns::load_stored_now(std::string const& label, HistoryShape const& shape,
+                                                     std::size_t run, std::size_t most) {
+  auto const is_whole = [&](Piece const& piece) {
+    return piece.ended && piece.first == 0 && piece.end == shape.generations + 1;
+  };
+  auto const pieces = find(label, run);
+  if (pieces.size() != 1 || !is_whole(pieces.front())) return std::nullopt;
+  Piece const first = pieces.front();
+  std::size_t count = 1;
+  for (; count < most; ++count) {
+    auto const next = find(label, run + count);
+    if (next.size() != 1 || !is_whole(next.front())) break;
+    if (next.front().file != first.file || next.front().entry != first.entry + count) break;
+  }
+  SegmentFile& file = opened(first);
+  if (!same_lists(file.estimators().at(label).shape, shape)) throw other_search(file, label);
+  StoredRuns runs = file.read_runs(label, first.entry, count);
+  if (n_shards_ > most_open_files) file.close();
+  return runs;
+}
+
 std::optional<RunPart> SavedRuns::load_now(std::string const& label, HistoryShape const& shape, std::size_t run) {
-  Pieces const* pieces = find(label, run);
-  if (!pieces) return std::nullopt;
+  auto const pieces = find(label, run);
+  if (pieces.empty()) return std::nullopt;
   RunPart whole{.run = run};
   std::vector<std::pair<std::size_t, std::size_t>> sources;  // until which generation, from which file
   auto const source_of = [&](std::size_t generation) {
@@ -213,9 +255,9 @@ std::optional<RunPart> SavedRuns::load_now(std::string const& label, HistoryShap
       if (generation < end) return files_[file].path;
     return files_[sources.back().second].path;
   };
-  for (Piece const& piece : *pieces) {
+  for (Piece const& piece : pieces) {
     if (piece.first > whole.count) break;  // what lies between is lost: so is what follows
-    SegmentFile& file = opened(piece.file);
+    SegmentFile& file = opened(piece);
     if (!same_lists(file.estimators().at(label).shape, shape)) throw other_search(file, label);
     RunPart part = file.read(label, piece.entry);
     if (n_shards_ > most_open_files) file.close();

@@ -7,7 +7,8 @@
 // Meanwhile  living processes gather their segments (segment_pile.hpp): when one is gone, the folder is listed again
 // Errors     65 when two segments disagree (both are named); 78 when a segment belongs to another job, or to another
 //            program unless that is allowed
-// Memory     an index of all runs, and up to 256 MiB of what segments have next, however many they are
+// Memory     an index of all runs (32 bytes each), and up to 256 MiB of what segments have next, however many they are;
+//            of one segment 2 MiB where each has neighbouring runs
 // Threads    as HDF5: one of the process at a time
 
 #include <cstddef>
@@ -16,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,11 @@ class SavedRuns {
   // its history so far, and the optimiser's state when it has not ended; nothing when no segment has its beginning
   std::optional<RunPart> load(std::string const& label, HistoryShape const& shape, std::size_t run);
 
+  // `run` and up to `most` - 1 that follow it, where one segment has them side by side from their beginning to the
+  // job's last generation, and no other has any of them; nothing where `run` is not such a one
+  std::optional<StoredRuns> load_stored(std::string const& label, HistoryShape const& shape, std::size_t run,
+                                        std::size_t most);
+
   std::vector<FilePlace> const& files() const { return files_; }          // every segment taken
   std::vector<SegmentOrigin> const& origins() const { return origins_; }  // of each of them
   std::vector<std::string> const& warnings() const { return warnings_; }  // what was left aside, and why
@@ -52,33 +59,42 @@ class SavedRuns {
   bool mixed() const { return mixed_; }
 
  private:
+  // there may be millions
   struct Piece {
-    std::size_t file, entry, first, end;
+    std::size_t run;
+    std::uint32_t file, entry, first, end;
     bool ended;
   };
   using Pieces = std::vector<Piece>;
+  using PiecesOfRun = std::span<Piece const>;
 
   void read_all();
   bool read_folder(OpenFolder const& folder);
   std::optional<RunPart> load_now(std::string const& label, HistoryShape const& shape, std::size_t run);
 
-  Pieces const* find(std::string const& label, std::size_t run) const;
+  std::optional<StoredRuns> load_stored_now(std::string const& label, HistoryShape const& shape, std::size_t run,
+                                            std::size_t most);
+  template <class Load>
+  auto listing_again(Load&& load) -> decltype(load());
+
+  PiecesOfRun find(std::string const& label, std::size_t run) const;
   bool accept(SegmentFile const& file, SavedRunsRequest const& request);
   void take(SegmentFile const& file, std::size_t index);
   std::size_t shards() const;  // that wrote the segments
-  SegmentFile& opened(std::size_t file);
+  SegmentFile& opened(Piece const& piece);
 
   SavedRunsRequest request_;
   std::vector<std::shared_ptr<OpenFolder const>> folders_;  // of the files
   std::vector<FilePlace> files_;
   struct Opened {
     std::unique_ptr<SegmentFile> file;
-    std::uint64_t asked;  // when it was asked for last
+    std::uint64_t asked;   // when it was asked for last
+    std::size_t last_run;  // that it has anything of
   };
-  std::map<std::size_t, Opened> open_;  // of every shard about one: runs come from all of them in turns
+  std::map<std::size_t, Opened> open_;  // of every shard about one, where runs come from all of them in turns
   std::uint64_t n_asked_ = 0;
   std::size_t n_shards_ = 1;
-  std::map<std::string, std::map<std::size_t, Pieces>> runs_;  // by label and run, sorted by first generation
+  std::map<std::string, Pieces> pieces_;  // by label, sorted by run and first generation
   std::vector<SegmentOrigin> origins_;
   std::vector<std::string> warnings_;
   bool mixed_ = false;

@@ -124,17 +124,22 @@ SegmentFile::Lists& SegmentFile::lists(std::string const& label) {
                               .state_numbers = ahead("state_numbers", number)});
 }
 
+// as many as there should be: rows may be of any width, none included
+template <class Value>
+std::span<Value const> SegmentFile::rows(RowsAhead<Value>& list, std::size_t first, std::size_t count,
+                                         std::size_t width) {
+  auto const found = list.rows([this]() -> ResultReader const& { return reader(); }, first, count);
+  if (found.size() != count * width) throw contradicts_itself(name(), "lists of " + lists_->label);
+  return found;
+}
+
 RunPart SegmentFile::read(std::string const& label, std::size_t entry) {
   Index const& index = estimators_.at(label);
   Lists& lists = this->lists(label);
   Entry const& wanted = index.entries.at(entry);
   RunPart part{.run = wanted.run, .first = wanted.first, .count = wanted.count, .ended = wanted.ended};
-  auto const open = [this]() -> ResultReader const& { return reader(); };
-  // as many as there should be: rows may be of any width, none included
   auto const read = [&](auto& list, std::size_t first, std::size_t count, std::size_t width) {
-    auto const rows = list.rows(open, first, count);
-    if (rows.size() != count * width) throw contradicts_itself(name(), "lists of " + label);
-    return rows;
+    return rows(list, first, count, width);
   };
   auto const into = [](auto& to, auto from) { to.assign(from.begin(), from.end()); };
   for (std::size_t i = 0; i < history_lists.size(); ++i)
@@ -149,6 +154,29 @@ RunPart SegmentFile::read(std::string const& label, std::size_t entry) {
   }
   part.state = read_state(lists, wanted);
   return part;
+}
+
+StoredRuns SegmentFile::read_runs(std::string const& label, std::size_t first_entry, std::size_t count) {
+  Index const& index = estimators_.at(label);
+  Lists& lists = this->lists(label);
+  std::size_t const row = index.entries.at(first_entry).row, n_rows = count * (index.shape.generations + 1);
+  auto const read = [&](auto& list, std::size_t first, std::size_t n, std::size_t width, auto& into) {
+    into.values = rows(list, first, n, width);
+    into.owner = list.owner();
+  };
+  StoredRuns runs{.count = count};
+  for (std::size_t i = 0; i < history_lists.size(); ++i)
+    if (std::size_t const width = history_lists[i].width(index.shape); width > 0)
+      read(lists.histories[i], row, n_rows, width, runs.histories[i]);
+  read(lists.evaluations, row, n_rows, 1, runs.evaluations);
+  read(lists.nonfinite, first_entry, count, 1, runs.nonfinite);
+  read(lists.parameters, first_entry, count, index.shape.parameters, runs.parameters);
+  for (std::size_t i = 0; i < count; ++i) {
+    Entry const& entry = index.entries.at(first_entry + i);
+    runs.stop_reasons.push_back(entry.stop_reason);
+    runs.last_states.push_back(read_state(lists, entry));
+  }
+  return runs;
 }
 
 OptimiserState SegmentFile::read_state(Lists& lists, Entry const& entry) {

@@ -10,11 +10,14 @@
 //            ours)
 // Threads    as HDF5: one of the process at a time
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +51,22 @@ inline std::string segment_group(std::string const& label) { return "/parts/" + 
 
 void write_segment(FilePlace const& place, SegmentOrigin const& origin, std::vector<EstimatorParts> const& estimators);
 
+// Neighbouring runs from their beginning to their end, as a segment has them: their lists one behind the other, as a
+// result has them too. Valid until more is read
+struct StoredRuns {
+  template <class Value>
+  struct List {
+    std::span<Value const> values{};
+    std::shared_ptr<void const> owner{};  // while it lives the values stay
+  };
+  std::size_t count = 0;
+  std::array<List<double>, history_lists.size()> histories{};  // as history_lists; empty: not kept
+  List<std::int64_t> evaluations{}, nonfinite{};
+  List<double> parameters{};
+  std::vector<std::string> stop_reasons{};
+  std::vector<OptimiserState> last_states{};
+};
+
 class SegmentFile {
  public:
   // of one part, without its numbers
@@ -75,6 +94,8 @@ class SegmentFile {
   std::uint64_t bytes() const { return bytes_; }
   void verify() { static_cast<void>(reader().verify()); }
   RunPart read(std::string const& label, std::size_t entry);
+  // of entries that are whole runs, each with every generation of the job
+  StoredRuns read_runs(std::string const& label, std::size_t first_entry, std::size_t count);
   // the file; what was read stays, and it is opened again when more is asked for
   void close() { reader_.reset(); }
 
@@ -93,6 +114,8 @@ class SegmentFile {
   ResultReader const& reader();
   void read_index(std::string const& label);
   Lists& lists(std::string const& label);
+  template <class Value>
+  std::span<Value const> rows(RowsAhead<Value>& list, std::size_t first, std::size_t count, std::size_t width);
   OptimiserState read_state(Lists& lists, Entry const& entry);
 
   FilePlace place_;

@@ -68,6 +68,28 @@ struct Covered {
   std::map<std::size_t, std::size_t> ended;                         // by run: where
 };
 
+bool has_ended(Covered const& covered, std::size_t run) {
+  auto const told = covered.ended.find(run);
+  if (told == covered.ended.end()) return false;
+  std::size_t end = 0;
+  for (auto const& [first, part_end] : covered.parts.at(run))
+    if (first <= end) end = std::max(end, part_end);
+  return told->second <= end;
+}
+
+void find_unfinished_shares(std::map<std::string, Covered> const& estimators, JobStatus& status) {
+  if (status.writers.empty() || estimators.empty()) return;
+  auto const shares = status.writers.front().shards;
+  auto const is_of_them = [&](auto const& writer) { return writer.shards == shares; };
+  if (shares < 2 || !std::all_of(status.writers.begin(), status.writers.end(), is_of_them)) return;
+  status.shares = static_cast<std::size_t>(shares);
+  std::size_t const runs = estimators.begin()->second.shape.runs;
+  status.unfinished_shares = unfinished_shares(runs, status.shares, [&](std::size_t run) {
+    return std::all_of(estimators.begin(), estimators.end(),
+                       [&](auto const& one) { return has_ended(one.second, run); });
+  });
+}
+
 JobStatus::Estimator summed(std::string const& label, Covered const& covered) {
   JobStatus::Estimator estimator;
   estimator.label = label;
@@ -77,8 +99,7 @@ JobStatus::Estimator summed(std::string const& label, Covered const& covered) {
     std::size_t end = 0;
     for (auto const& [first, part_end] : parts)
       if (first <= end) end = std::max(end, part_end);
-    auto const told = covered.ended.find(run);
-    bool const ended = told != covered.ended.end() && told->second <= end;
+    bool const ended = has_ended(covered, run);
     ended ? ++estimator.ended : ++estimator.begun;
     // a run that ended early has nothing left to do
     estimator.generations_done += static_cast<std::int64_t>(ended ? covered.shape.generations + 1 : end);
@@ -137,6 +158,7 @@ bool read_now(std::filesystem::path const& segment_folder, JobStatus& status) {
   for (auto const& [who, writer] : writers) status.writers.push_back(writer);
   std::stable_sort(status.writers.begin(), status.writers.end(),
                    [](auto const& a, auto const& b) { return a.shard < b.shard; });
+  find_unfinished_shares(estimators, status);
   return is_whole;
 }
 

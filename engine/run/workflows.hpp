@@ -69,6 +69,9 @@ struct JobStatus {
   std::vector<Writer> writers;
   std::uintmax_t bytes = 0;
   std::vector<std::string> damaged;  // names of segments that cannot be read
+  // shares that lack runs, where all segments are of one division of the job; empty where all is done, or it is not so
+  std::vector<std::size_t> unfinished_shares;
+  std::size_t shares = 1;
 };
 JobStatus read_status(std::filesystem::path const& segment_folder);
 struct DiagnoseRequest {

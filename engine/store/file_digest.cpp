@@ -7,11 +7,12 @@
 namespace torquescope {
 namespace {
 
-// whole blocks, and several chunks so that few are read twice
+// whole chunks, so that each is read once
 std::size_t rows_at_once(h5::DatasetInfo const& info) {
   constexpr std::size_t bytes_at_once = std::size_t{4} << 20;
-  std::size_t const block_rows = rows_of_block(info.element, info.shape);
-  return std::max<std::size_t>(1, bytes_at_once / bytes_of_row(info.shape) / block_rows) * block_rows;
+  std::size_t const rows = std::max<std::size_t>(1, bytes_at_once / bytes_of_row(info.shape));
+  std::size_t const chunk_rows = info.chunk.empty() ? 1 : info.chunk.front();
+  return rows < chunk_rows ? rows : rows / chunk_rows * chunk_rows;
 }
 
 // reads a part of a file, object by object
@@ -76,18 +77,15 @@ class FileWalk {
   }
 
   void add_numbers(h5::Handle const& dataset, h5::DatasetInfo const& info, std::string const& path) {
-    std::size_t const row_bytes = bytes_of_row(info.shape);
-    std::size_t const block_rows = rows_of_block(info.element, info.shape);
     std::size_t const step = rows_at_once(info);
     std::vector<double> buffer(std::min(step, info.rows()) * info.values_per_row());  // int64 are as large
+    ArrayDigest digest(digest_, path, info.element, info.shape);
     for (std::size_t first = 0; first < info.rows(); first += step) {
-      std::size_t const end = std::min(first + step, info.rows());
-      h5::read_rows(dataset, info, first, end - first, buffer.data());
-      for (std::size_t row = first; row < end; row += block_rows)
-        digest_.block(path, row / block_rows,
-                      std::as_bytes(std::span(buffer))
-                          .subspan((row - first) * row_bytes, std::min(block_rows, end - row) * row_bytes));
+      std::size_t const count = std::min(step, info.rows() - first);
+      h5::read_rows(dataset, info, first, count, buffer.data());
+      digest.add(std::as_bytes(std::span(buffer).first(count * info.values_per_row())));
     }
+    digest.end();
   }
 
   h5::Handle const& file_;

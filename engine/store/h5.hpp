@@ -115,6 +115,11 @@ void write_chunk(Handle const& dataset, Shape const& first, std::span<std::byte 
 void write_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count,
                 void const* values);
 void read_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count, void* values);
+// h5_chunk.cpp: for read_rows(). The same from chunks of whole rows to which nothing was done but a checksum: HDF5
+// copies such a chunk twice, and its checksum takes five times as long. `memory` is the type of `values`. False where
+// the dataset is stored otherwise or a chunk is damaged: then HDF5 reads it, and says what is wrong
+bool read_plain_chunks(Handle const& dataset, Handle const& memory, DatasetInfo const& info, std::size_t first,
+                       std::size_t count, void* values);
 std::vector<std::string> read_texts(Handle const& dataset, DatasetInfo const& info, std::size_t first,
                                     std::size_t count);
 

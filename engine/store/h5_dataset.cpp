@@ -177,8 +177,9 @@ void write_rows(Handle const& dataset, DatasetInfo const& info, std::size_t firs
 
 void read_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count, void* values) {
   if (is_empty(info.shape) || count == 0) return;
-  Selection const rows = select_rows(dataset, info, first, count);
   Handle const type = memory_type(info);
+  if (read_plain_chunks(dataset, type, info, first, count, values)) return;
+  Selection const rows = select_rows(dataset, info, first, count);
   checked(H5Dread(dataset.id(), type.id(), rows.memory.id(), rows.file.id(), H5P_DEFAULT, values), "read values");
 }
 

@@ -239,8 +239,9 @@ void ResultWriter::put_run(std::string const& path, h5::Element element, std::si
   if (!has_values(runs.info.shape)) return;
   guarded(path, [&] {
     runs.blocks.put(run, values, [&](std::size_t first, std::size_t count, std::span<std::byte const> block) {
-      // a block of several runs is not the owner's
-      write_block(path, runs, first, count, block, block.data() == values.data() ? owner : nullptr);
+      // a block that was put together is not the owner's
+      bool const is_owned = block.data() >= values.data() && block.data() < values.data() + values.size();
+      write_block(path, runs, first, count, block, is_owned ? owner : nullptr);
     });
   });
 }
@@ -252,6 +253,21 @@ void ResultWriter::write_run(std::string const& path, std::size_t run, std::span
 
 void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<std::int64_t const> values) {
   put_run(path, h5::Element::whole_number, run, std::as_bytes(values), {});
+}
+
+void ResultWriter::write_runs(std::size_t first, std::size_t count, std::span<RunsOfList const> lists) {
+  std::size_t const end = first + count;
+  std::vector<std::size_t> begin(lists.size(), first);
+  for (std::size_t run = first; run < end; ++run)
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      auto const& list = lists[i];
+      TORQUESCOPE_EXPECT(runs_.contains(list.path));
+      if (run + 1 < end && !runs_.at(list.path).blocks.ends_block(run)) continue;
+      std::size_t const bytes = list.values.size() / count;
+      put_run(list.path, list.element, begin[i],
+              list.values.subspan((begin[i] - first) * bytes, (run + 1 - begin[i]) * bytes), list.owner);
+      begin[i] = run + 1;
+    }
 }
 
 void ResultWriter::plottable(std::string const& group, std::string const& signal,

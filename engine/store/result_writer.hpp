@@ -86,6 +86,15 @@ class ResultWriter {
                  std::shared_ptr<void const> const& owner = {});
   void write_run(std::string const& path, std::size_t run, std::span<std::int64_t const> values);
 
+  // all lists of `count` neighbouring runs: the same bytes as from one run after the other, each list in turn
+  struct RunsOfList {
+    std::string path;
+    h5::Element element = h5::Element::number;
+    std::span<std::byte const> values{};
+    std::shared_ptr<void const> owner{};
+  };
+  void write_runs(std::size_t first, std::size_t count, std::span<RunsOfList const> lists);
+
   // a browser that knows NeXus (silx, h5web) plots the group: `signal` over `axes`, one name per dimension, "." for
   // none
   void plottable(std::string const& group, std::string const& signal, std::vector<std::string> const& axes);

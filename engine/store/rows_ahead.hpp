@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -37,8 +37,10 @@ class RowsAhead {
   std::span<Value const> rows(Open&& open, std::size_t first, std::size_t count) {
     if (count == 0) return {};
     if (first < first_ || first + count > end()) read(open(), first, count);
-    return std::span<Value const>(values_).subspan((first - first_) * width_, count * width_);
+    return std::span<Value const>(*values_).subspan((first - first_) * width_, count * width_);
   }
+  // of the rows given last: while it lives they stay as they are
+  std::shared_ptr<void const> owner() const { return values_; }
 
  private:
   std::size_t end() const { return first_ + n_rows_; }
@@ -55,12 +57,11 @@ class RowsAhead {
     // more than there is stays as it was asked for: the reader says what is wrong
     std::size_t const until = std::max(first + count, end_ahead(from));
     std::vector<Value> fresh = read_rows(reader, from, until - from);
-    std::vector<Value> kept = std::exchange(values_, {});
     std::size_t const known = from - first;
     width_ = fresh.size() / (until - from);
-    kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(known * width_));
-    kept.insert(kept.end(), std::make_move_iterator(fresh.begin()), std::make_move_iterator(fresh.end()));
-    values_ = std::move(kept);
+    if (known > 0)
+      fresh.insert(fresh.begin(), values_->end() - static_cast<std::ptrdiff_t>(known * width_), values_->end());
+    values_ = std::make_shared<std::vector<Value> const>(std::move(fresh));
     first_ = first;
     n_rows_ = until - first;
   }
@@ -77,7 +78,7 @@ class RowsAhead {
   std::string path_;
   std::size_t all_, chunk_, at_once_ = 0;           // rows; at once: whole chunks, unless they are much larger
   std::size_t first_ = 0, n_rows_ = 0, width_ = 0;  // of the rows that are there
-  std::vector<Value> values_{};
+  std::shared_ptr<std::vector<Value> const> values_{};
 };
 
 }  // namespace torquescope

@@ -40,16 +40,32 @@ void RunBlocks::emit_block(std::size_t block, std::span<std::byte const> values,
 }
 
 void RunBlocks::put(std::size_t run, std::span<std::byte const> values, Emit const& emit) {
-  TORQUESCOPE_EXPECT(run < runs_ && values.size() == bytes_of_run_);
-  std::size_t const index = run / in_block_, place = run % in_block_;
-  TORQUESCOPE_EXPECT(!emitted_[index]);
-  if (runs_in(index) == 1) return emit_block(index, values, emit);  // without a copy
+  TORQUESCOPE_EXPECT(bytes_of_run_ > 0 && values.size() % bytes_of_run_ == 0);
+  std::size_t const end = run + values.size() / bytes_of_run_;
+  TORQUESCOPE_EXPECT(end <= runs_);
+  while (run < end) {
+    std::size_t const index = run / in_block_, count = std::min(end, index * in_block_ + runs_in(index)) - run;
+    auto const part = values.first(count * bytes_of_run_);
+    TORQUESCOPE_EXPECT(count < runs_in(index) || !begun_.contains(index));
+    if (count == runs_in(index))
+      emit_block(index, part, emit);
+    else
+      put_into(index, run % in_block_, part, emit);
+    run += count;
+    values = values.subspan(part.size());
+  }
+}
 
+void RunBlocks::put_into(std::size_t index, std::size_t place, std::span<std::byte const> values, Emit const& emit) {
+  TORQUESCOPE_EXPECT(!emitted_[index]);
   Block& block = begun(index);
-  TORQUESCOPE_EXPECT(!block.has[place]);
-  block.has[place] = true;
+  std::size_t const count = values.size() / bytes_of_run_;
+  auto const has = block.has.begin() + static_cast<std::ptrdiff_t>(place);
+  TORQUESCOPE_EXPECT(std::none_of(has, has + static_cast<std::ptrdiff_t>(count), [](bool one) { return one; }));
+  std::fill_n(has, count, true);
   std::copy(values.begin(), values.end(), block.values.begin() + static_cast<std::ptrdiff_t>(place * bytes_of_run_));
-  if (--block.missing > 0) return;
+  block.missing -= count;
+  if (block.missing > 0) return;
   emit_block(index, block.values, emit);
   spare_ = std::move(block.values);
   begun_.erase(index);

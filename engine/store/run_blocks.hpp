@@ -23,8 +23,11 @@ class RunBlocks {
   // absent: the eight bytes of each value of a run that never comes
   RunBlocks(std::size_t runs, std::size_t bytes_of_run, std::size_t in_block, std::uint64_t absent);
 
-  // not twice for the same run
+  // of one or more neighbouring runs from `run` on; not twice for the same one. A block that they make up is handed on
+  // without a copy
   void put(std::size_t run, std::span<std::byte const> values, Emit const& emit);
+  // the last run of its block
+  bool ends_block(std::size_t run) const { return (run + 1) % in_block_ == 0 || run + 1 == runs_; }
   // whatever is not whole, with its absent runs
   void put_rest(Emit const& emit);
 
@@ -37,6 +40,7 @@ class RunBlocks {
 
   std::size_t runs_in(std::size_t block) const;
   Block& begun(std::size_t block);
+  void put_into(std::size_t index, std::size_t place, std::span<std::byte const> values, Emit const& emit);
   void emit_block(std::size_t block, std::span<std::byte const> values, Emit const& emit);
 
   std::size_t runs_, bytes_of_run_, in_block_;

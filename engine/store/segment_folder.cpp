@@ -110,6 +110,17 @@ std::string host_name() {
   return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "unknown";
 }
 
+std::vector<std::size_t> unfinished_shares(std::size_t runs, std::size_t shares,
+                                           std::function<bool(std::size_t run)> const& is_done) {
+  std::vector<std::size_t> unfinished;
+  for (ShardChoice share{.index = 0, .count = shares}; share.index < shares; ++share.index) {
+    std::size_t run = share.first(runs);
+    while (run < share.end(runs) && is_done(run)) ++run;
+    if (run < share.end(runs)) unfinished.push_back(share.index);
+  }
+  return unfinished;
+}
+
 fs::path segment_folder_of(fs::path const& result) { return result.string() + ".parts"; }
 
 void make_segment_folder(fs::path const& folder) {

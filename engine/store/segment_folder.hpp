@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,14 @@ struct ShardChoice {
   std::size_t index = 0, count = 1;
   std::string reason{};  // "--shard", "SLURM_ARRAY_TASK_ID"; "" when the job is not divided
 
-  bool has(std::size_t run) const { return run % count == index; }
+  // its runs of so many, [first, end): neighbours, so that merging reads one segment after the other
+  std::size_t first(std::size_t runs) const { return runs * index / count; }
+  std::size_t end(std::size_t runs) const { return runs * (index + 1) / count; }
 };
+
+// indexes of the shares, of so many, that have a run which is not done
+std::vector<std::size_t> unfinished_shares(std::size_t runs, std::size_t shares,
+                                           std::function<bool(std::size_t run)> const& is_done);
 
 std::filesystem::path segment_folder_of(std::filesystem::path const& result);
 

@@ -5,6 +5,8 @@ import contextlib
 import fcntl
 import os
 import re
+import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -102,6 +104,31 @@ class DiskRoom(shimmed.ShimmedTest):
                 finally:
                     subprocess.run(["umount", folder.path], check=True)
         print("9 full disks, exit 74 each, none differs", file=sys.stderr)
+
+    def test_a_disk_that_shrinks_meanwhile(self):
+        """A quota that somebody else takes away while a job is under way: said, nothing published, and with room the
+        same command makes the same file."""
+        folder = self.folder()
+        if not mounted(folder.path, "40m"):
+            self.skipTest("only root may mount a small disk")
+        try:
+            shutil.copy(self.whole / "job.toml", folder / "job.toml")
+            process = folder.start(*shimmed.RUN)
+            while process.poll() is None and not any(".tmp." in name for name in os.listdir(folder.path)):
+                pass
+            process.send_signal(signal.SIGSTOP)
+            size = 4096 * (2 + sum(-(-os.path.getsize(folder / name) // 4096) for name in os.listdir(folder.path)))
+            subprocess.run(["mount", "-o", f"remount,size={size}", folder.path], check=True)
+            process.send_signal(signal.SIGCONT)
+            ended = study.Ended(process)
+            self.assert_ended(ended, 74)
+            self.assertIn("no space left on device", ended.said)
+            self.assertEqual(os.listdir(folder.path), ["job.toml"])
+            subprocess.run(["mount", "-o", "remount,size=40m", folder.path], check=True)
+            self.assert_ended(folder.run(*shimmed.RUN), 0)
+            self.assert_same(folder)
+        finally:
+            subprocess.run(["umount", folder.path], check=True)
 
     def held(self, folder, share):
         """True while a living process holds the share."""

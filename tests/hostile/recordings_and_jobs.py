@@ -222,6 +222,54 @@ class DamagedRecordings(Folder):
             )
 
 
+class DamagedTexts(Folder):
+    """Flipped bits in a job, a recording of text and a robot: a sentence or numbers, never a signal."""
+
+    COUNT = 400 if os.environ.get("TORQUESCOPE_FAULTS") else 20
+    ROBOT = """<robot name="two"><link name="base"/>
+      <link name="upper"><inertial><origin xyz="0 0 0.1"/><mass value="2"/>
+        <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+      <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+        <limit lower="-1" upper="1" effort="10" velocity="3"/></joint></robot>"""
+    ARM = """
+[experiment]
+name = "arm"
+[recording]
+train = "arm.csv"
+columns = {time = "t_s", position = "q_{j}", torque = "tau_{j}"}
+[filter]
+cutoff_hz = 20
+[model]
+robot = "robot.urdf"
+[[estimator]]
+name = "ols"
+"""
+
+    def test_no_flipped_bit_crashes_the_program(self):
+        draw = random.Random(SEED)
+        job = (JOB % ("2", "rec.csv", "ols")).encode()
+        parts = {"job.toml": ("job.toml", job), "rec.csv": ("job.toml", TEXT), "robot.urdf": ("arm.toml",
+                                                                                             self.ROBOT.encode())}
+        self.write("arm.toml", self.ARM.encode())
+        self.write("arm.csv", TEXT.replace(b"q_rad", b"q_1").replace(b"tau_Nm", b"tau_1"))
+        codes = {}
+        for damaged_name, (command, whole) in parts.items():
+            for name, (_, content) in parts.items():
+                self.write(name, content)
+            self.assertEqual(program.run("check", command, folder=self.folder).code, 0, damaged_name)
+            for _ in range(self.COUNT):
+                damaged = bytearray(whole)
+                for _ in range(draw.choice([1, 1, 3])):
+                    damaged[draw.randrange(len(damaged))] ^= 1 << draw.randrange(8)
+                self.write(damaged_name, damaged)
+                outcome = program.run("check", command, folder=self.folder)
+                self.assertIn(outcome.code, [0, 65, 66, 78], f"{damaged_name}: {outcome.err}")
+                if outcome.code:
+                    self.assertIn("error:", outcome.err)
+                codes[outcome.code] = codes.get(outcome.code, 0) + 1
+        print(f"jobs, texts and robots with flipped bits: exit codes {codes}")
+
+
 class TextRecordings(Folder):
     def test_text_that_is_none(self):
         for content, words in [

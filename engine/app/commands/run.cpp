@@ -32,6 +32,12 @@ struct RunArguments {
   bool allow_mixed = false, allow_full_disk = false;
 };
 
+std::string words_of_share(ShardChoice const& shard, Experiment const& experiment) {
+  auto const runs = static_cast<std::size_t>(experiment.parts().experiment.runs);
+  std::size_t const first = shard.first(runs), end = shard.end(runs);
+  return first == end ? fmt::format("none of {} runs", runs) : fmt::format("runs {} to {} of {}", first, end - 1, runs);
+}
+
 // a share of the runs, into segments
 ExitCode run_share(Experiment experiment, IdentifyOptions const& options, std::string const& job,
                    Session const& session) {
@@ -97,8 +103,8 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   for (auto const& line : experiment.fitness_lines()) session.note(session.topic_line("fitness", line));
   if (shard.count > 1) {
     session.note(
-        session.topic_line("shard", fmt::format("{}/{} ({}): every {}th run from {} on; --shard 0/1 for all",
-                                                shard.index, shard.count, shard.reason, shard.count, shard.index)));
+        session.topic_line("shard", fmt::format("{}/{} ({}): {}; --shard 0/1 for all", shard.index, shard.count,
+                                                shard.reason, words_of_share(shard, experiment))));
     return run_share(std::move(experiment), options, arguments.job, session);
   }
   IdentifyReport report;

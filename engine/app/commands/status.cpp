@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/commands/slurm_scripts.hpp"
 #include "engine/app/result/result_summary.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
@@ -34,6 +36,30 @@ int percent(JobStatus::Estimator const& estimator) {
   return estimator.generations > 0 ? static_cast<int>(100 * estimator.generations_done / estimator.generations) : 0;
 }
 
+// what is left to do, and by which command
+std::string next_step(JobStatus const& status, fs::path const& result) {
+  std::string const out = printable(shell_word(result.string()));
+  bool const is_at_work =
+      std::any_of(status.writers.begin(), status.writers.end(), [](auto const& writer) { return writer.is_alive; });
+  bool const is_done = !status.estimators.empty() && status.damaged.empty() &&
+                       std::all_of(status.estimators.begin(), status.estimators.end(),
+                                   [](auto const& estimator) { return estimator.ended == estimator.runs; });
+  if (is_done && is_at_work) return "every run that segments tell of is done";
+  if (is_done)
+    return "every run that segments tell of is done: torquescope merge JOB.toml --out " + out +
+           " (a merge that Slurm holds for DependencyNeverSatisfied waits for ever: scancel it)";
+  if (status.unfinished_shares.empty())
+    return is_at_work ? "" : "no process of this host is at it; the same command goes on";
+  constexpr std::size_t most = 12;
+  std::vector<std::size_t> shown = status.unfinished_shares;
+  bool const is_cut = shown.size() > most;
+  if (is_cut) shown.resize(most);
+  return fmt::format(
+      "not finished: shards {}{} of {}. Those that no process or queue has any more: torquescope run JOB.toml --out {} "
+      "--shard {}/{}; or `run` without --shard does all that is missing",
+      fmt::join(shown, ", "), is_cut ? ", ..." : "", status.shares, out, shown.front(), status.shares);
+}
+
 std::string status_text(JobStatus const& status, fs::path const& result, Ink const& ink) {
   using Align = TextTable::Align;
   std::string text = fmt::format("{} is not finished: job {}, {} of segments\n", ink.name(printable(result.string())),
@@ -50,6 +76,7 @@ std::string status_text(JobStatus const& status, fs::path const& result, Ink con
     writers.row({fmt::format("{}/{}", writer.shard, writer.shards), printable(writer.host), std::to_string(writer.pid),
                  std::to_string(writer.segments), printable(writer.last_written), writer.is_alive ? "at work" : ""});
   text += writers.text(page_width());
+  if (auto const next = next_step(status, result); !next.empty()) text += hanging("  ", next);
   for (auto const& name : status.damaged)
     text += hanging(ink.warning("warning") + "  ", printable(name) + " is damaged; its generations run again");
   return text;
@@ -81,7 +108,9 @@ std::string status_json(JobStatus const& status, fs::path const& result, bool co
                          {"segment_bytes", status.bytes},
                          {"estimators", estimators},
                          {"writers", writers},
-                         {"damaged_segments", status.damaged}};
+                         {"damaged_segments", status.damaged},
+                         {"unfinished_shards", status.unfinished_shares},
+                         {"shards", status.shares}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

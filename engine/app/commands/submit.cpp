@@ -15,6 +15,7 @@
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/slurm_scripts.hpp"
+#include "engine/app/result/finished_result.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/interrupted_call.hpp"
 #include "engine/job/job.hpp"
@@ -172,6 +173,11 @@ ExitCode submit_job(SubmitArguments const& arguments, Session const& session) {
   refuse_long_name(result);
   refuse_foreign_folder(segment_folder_of(result));
   std::string const array_name = result.string() + ".array.sbatch", merge_name = result.string() + ".merge.sbatch";
+  auto const kind = plan.diagnoses ? ResultKind::diagnosis : ResultKind::runs;
+  if (!arguments.dry_run && already_complete(result, experiment.inputs_sha256(), kind)) {
+    session.note(session.topic_line("done", result.string() + " is already complete: nothing is queued"));
+    return ExitCode::ok;
+  }
   if (!arguments.dry_run) {
     queue(plan, arguments, array_name, merge_name, session);
     return ExitCode::ok;
@@ -229,7 +235,8 @@ void add_submit(CLI::App& app, ChosenCommand& chosen) {
       ->check(no_sbatch_option);
   add_result_option(*command, arguments->out);
   command
-      ->add_option("--shards", arguments->shards, "tasks of the array; each does every Nth run, in minutes not seconds")
+      ->add_option("--shards", arguments->shards,
+                   "tasks of the array; each does its part of the runs, in minutes not seconds")
       ->type_name("N")
       ->required()
       ->check(no_shard_count)

@@ -164,6 +164,8 @@ def common_section(recordings):
 
 
 def _array(channel, values):
+    if np.iscomplexobj(values):  # numpy would drop the imaginary part
+        raise DataError(f"error: {channel} holds complex numbers\n  help: give real ones: {channel}=values.real")
     try:
         array = np.ma.asarray(values, dtype=float).filled(np.nan)  # not the fill value of what is masked
     except (TypeError, ValueError) as error:

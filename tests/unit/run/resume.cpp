@@ -84,6 +84,7 @@ TEST(Merge, OfAnyShardsWritesTheSameFile) {
     JobStatus const status = read_status(segment_folder_of(output));
     ASSERT_EQ(status.estimators.size(), 6u);
     for (auto const& estimator : status.estimators) EXPECT_EQ(estimator.ended, 5);
+    EXPECT_TRUE(status.unfinished_shares.empty());
     merge(test::load_job(job), options_for(output, 2), Completeness::whole, {});
     EXPECT_TRUE(test::bytes_of(output) == whole) << count << " shards";
     EXPECT_EQ(ResultReader(output).verify(), ResultReader(folder / "whole.h5").content_sha256());
@@ -97,20 +98,26 @@ TEST(Merge, WithoutAllRunsSaysWhichAndWritesNothing) {
   options.shard = {1, 3, "test"};
   run_shard(test::load_job(job), options, {});
   options.shard = {};
+  JobStatus const status = read_status(segment_folder_of(options.output));
+  EXPECT_EQ(status.unfinished_shares, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(status.shares, 3u);
   try {
     merge(test::load_job(job), options, Completeness::whole, {});
     FAIL();
   } catch (Error const& error) {
     EXPECT_EQ(error.code(), ExitCode::stopped);
     EXPECT_EQ(error.problems().front().notes.front(),
-              "de 0, 2 to 3; fade 0, 2 to 3; jde 0, 2 to 3; jade 0, 2 to 3; lshade 0, 2 to 3; cmaes 0, 2 to 3");
+              "de 0, 3 to 4; fade 0, 3 to 4; jde 0, 3 to 4; jade 0, 3 to 4; lshade 0, 3 to 4; cmaes 0, 3 to 4");
+    EXPECT_EQ(error.problems().front().notes.back(),
+              "they are of shards 0, 2 of 3: torquescope run JOB.toml --shard 0/3");
   }
   EXPECT_FALSE(fs::exists(options.output));
   merge(test::load_job(job), options, Completeness::partial, {});
   ResultReader const partial(options.output);
   EXPECT_EQ(partial.attribute<std::int64_t>("/runs/fade", "missing_runs"), 3);
   EXPECT_EQ(partial.texts("/runs/fade/stop_reason")[0], "missing");
-  EXPECT_EQ(partial.attribute<std::int64_t>("/runs/fade", "median_run") % 3, 1) << "one that is there";
+  auto const median_run = partial.attribute<std::int64_t>("/runs/fade", "median_run");
+  EXPECT_TRUE(median_run == 1 || median_run == 2) << median_run << " is not there";
   EXPECT_GT(partial.attribute<double>("/runs/fade", "mse_median"), 0.0);
 }
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <span>
 #include <thread>
@@ -139,6 +140,38 @@ TEST(ResultWriter, CompressesHistoriesOfSurvivorsToLessThanThreeTenths) {
     return static_cast<double>(fs::file_size(folder / "R.h5"));
   };
   EXPECT_LE(size(true), 0.3 * size(false));
+}
+
+// widths whose blocks have 4096, 8 and 1 runs
+TEST(ResultWriter, WritesNeighboursTogetherAsOneAfterTheOther) {
+  test::TemporaryFolder const folder;
+  constexpr std::size_t n_runs = 50;
+  std::vector<std::size_t> const widths{2, 1000, 9000};
+  std::vector<std::string> const paths{"/a", "/b", "/c"};
+  std::vector<std::vector<double>> values;
+  for (std::size_t const width : widths) {
+    values.emplace_back(n_runs * width);
+    std::iota(values.back().begin(), values.back().end(), 0.0);
+  }
+  auto const written = [&](std::size_t together) {
+    auto const name = folder / ("R" + std::to_string(together) + ".h5");
+    ResultWriter writer(name);
+    for (std::size_t i = 0; i < paths.size(); ++i) writer.declare_runs(paths[i], n_runs, {widths[i]}, {"1", "a list"});
+    for (std::size_t run = 0; run < n_runs; run += together) {
+      std::size_t const count = std::min(together, n_runs - run);
+      std::vector<ResultWriter::RunsOfList> lists;
+      for (std::size_t i = 0; i < paths.size(); ++i) {
+        auto const part = std::span<double const>(values[i]).subspan(run * widths[i], count * widths[i]);
+        if (together == 1) writer.write_run(paths[i], run, part);
+        lists.push_back({paths[i], h5::Element::number, std::as_bytes(part), {}});
+      }
+      if (together > 1) writer.write_runs(run, count, lists);
+    }
+    writer.finish();
+    return test::bytes_of(name);
+  };
+  auto const one_by_one = written(1);
+  for (std::size_t const together : {3U, 8U, 17U, 50U}) EXPECT_EQ(written(together), one_by_one) << together;
 }
 
 TEST(ResultWriter, ReadsAbsentRunsAsNanAndZero) {

@@ -45,6 +45,22 @@ TEST(RunBlocks, GivesWholeBlocksAsSoonAsTheyAreWhole) {
   }
 }
 
+TEST(RunBlocks, GivesBlocksOfNeighboursThatComeTogetherWithoutACopy) {
+  std::vector<double> const values{2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 6.5};
+  RunBlocks runs(7, 16, 3, 0);
+  std::vector<std::size_t> in_place;
+  Collected collected;
+  runs.put(2, std::as_bytes(std::span(values)), [&](std::size_t first, std::size_t count, auto block) {
+    if (block.data() == std::as_bytes(std::span(values)).data() + (first - 2) * 16) in_place.push_back(first);
+    collected.emit(first, count, block);
+  });
+  EXPECT_EQ(in_place, (std::vector<std::size_t>{3, 6}));
+  put(runs, 0, collected);
+  put(runs, 1, collected);
+  EXPECT_EQ(collected.blocks[0], (std::vector<double>{0, 0.5, 1, 1.5, 2, 2.5}));
+  EXPECT_EQ(collected.blocks[3], (std::vector<double>{3, 3.5, 4, 4.5, 5, 5.5}));
+}
+
 TEST(RunBlocks, FillsWhatNeverCame) {
   RunBlocks runs(7, 16, 3, std::bit_cast<std::uint64_t>(std::nan("")));
   Collected collected;
