@@ -1,4 +1,4 @@
-"""`init`, `check`, `diagnose` and `show`, without an edit, over real recordings that have a header (../shared/recordings).
+"""`init`, `check`, `diagnose`, `show`, without an edit, over real recordings that have a header (../shared/recordings).
 
 A draft that `init` calls ready (exit code 0) must pass the other commands. Where `init` ends with 65 or 78 (its own
 codes for a recording that tells nothing, and for lines that only a person knows), it must say why, and `check` must
