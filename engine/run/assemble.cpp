@@ -213,6 +213,7 @@ void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
     if (channels == Channels::taken) forget_channels(recording);
     measure_motion(motion, parts.filter, facts);
     set.accounts.push_back({account_of(motion, parts.filter, filter)});
+    set.lone.push_back(recording.lone);
     for (auto const& warning : excitation_warnings(facts, unit)) recording.warnings.push_back(warning);
     set.excitation.push_back(facts);
     append_rows(set.regression, recording.name, std::move(motion), parts.filter, *parts.regressor, filter, row_motion);
@@ -411,7 +412,7 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
   if (is_arm && simulates) {
     use_arm_simulation(*parts, arm_plan);
   } else if (is_arm) {
-    use_arm_files(*parts, recording, payloads, tables);
+    use_arm_files(*parts, recording, payloads, tables, purpose);
   } else {
     std::optional<ServoJob> servo;
     if (simulates)
