@@ -44,6 +44,7 @@ enum class FindingKind {
   torque_without_sign,
   torque_switched_off,   // size: s
   command_beyond_limit,  // size: share of the rows; detail: the limit; errors before and after
+  torque_computed,       // detail: the reference's column; errors of the measured and the commanded motion
   torque_zero_steps,     // size: of the step, SI; detail: when; error_before: share that it explains
   torque_zero_drifts,    // size: over the recording, SI; error_before: share that it explains
   // velocity beside position

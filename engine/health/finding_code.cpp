@@ -59,6 +59,8 @@ std::string code_of(FindingKind kind) {
       return "torque_switched_off";
     case command_beyond_limit:
       return "command_beyond_limit";
+    case torque_computed:
+      return "torque_computed";
     case torque_zero_steps:
       return "torque_zero_steps";
     case torque_zero_drifts:

@@ -119,6 +119,15 @@ std::string what(Finding const& f) {
           "an error of {:.2g} % beside that limit, {:.2g} % without{}",
           column, f.detail, 100 * f.size, 100 * f.error_after, 100 * f.error_before,
           is_fault(f) ? "" : "; those rows are taken as the limit");
+    case torque_computed:
+      if (f.detail.empty())
+        return fmt::format("{} carries no noise at all, the position does: it was computed, or filtered afterwards",
+                           column);
+      return fmt::format(
+          "{} is what a model gives for the commanded motion \"{}\", with an error of {:.2g} %; for the measured "
+          "motion "
+          "the error is {:.2g} %: it was computed, not measured",
+          column, f.detail, 100 * f.error_after, 100 * f.error_before);
     case torque_zero_steps:
       return fmt::format(
           "the zero of {} steps by {:.3g} {} at {}, whatever the motion: that explains {:.0f} % of what the motion "
@@ -275,6 +284,10 @@ std::string cure_of(Finding const& f) {
     case torque_zero_steps:
     case torque_zero_drifts:
       return f.repair == Repair::none ? "correct the channel, or record again" : "";
+    case torque_computed:
+      if (f.detail.empty()) return "compare it with the current that the drive measures";
+      return "compare it with the current that the drive measures, and log that; or position and reference are "
+             "exchanged";
     case command_beyond_limit:
       return "log the torque or current that the drive measures";
     case one_row_decides:

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index most_rows_beside = 20000;  // a check must not cost a fit
-constexpr Index knots = 12;         // per axis: laws of friction and weight bend less often than that
+constexpr Index knots = 12;                // per axis: laws of friction and weight bend less often than that
 constexpr Index fewest_rows_a_column = 5;
 constexpr double dependent = 1e-7;  // of the largest pivot: hats of every axis sum to one
 
@@ -43,26 +43,48 @@ double energy_within(VectorXd const& signal, MatrixXd const& columns) {
   return (PivotedQr(columns, dependent).basis().transpose() * signal).squaredNorm();
 }
 
-VectorXd TorqueBesideMotion::filtered(VectorXd const& signal) const { return filter_.apply(signal)(rows_); }
+VectorXd TorqueBesideMotion::filtered(VectorXd const& signal) const { return filter_->apply(signal)(rows_); }
 
 MatrixXd TorqueBesideMotion::left_of(MatrixXd columns) const {
   columns -= basis_ * (basis_.transpose() * columns).eval();
   return columns;
 }
 
+void TorqueBesideMotion::take(VectorXd const& torque) {
+  VectorXd const seen = filtered(torque);
+  left_ = left_of(seen);
+  torque_rms_ = std::sqrt(seen.squaredNorm() / static_cast<double>(seen.size()));
+}
+
+TorqueBesideMotion TorqueBesideMotion::with(VectorXd const& torque) const {
+  TorqueBesideMotion other = *this;
+  other.take(torque);
+  return other;
+}
+
+double TorqueBesideMotion::error() const {
+  double const rms = std::sqrt(left_.squaredNorm() / static_cast<double>(std::max<Index>(left_.size(), 1)));
+  return torque_rms_ > 0.0 ? rms / torque_rms_ : 0.0;
+}
+
 std::optional<TorqueBesideMotion> TorqueBesideMotion::of(Recording const& recording, FilterOptions const& options,
                                                          Regressor const& regressor, Section const& filter) {
   Motion const motion = differentiate(recording, options, filter);
-  ParallelFilter parallel(options, motion.rate_hz, motion.q.size(), filter);
-  auto rows = sampled_rows(motion, options, parallel);
+  return of(motion, regressor.columns(motion), options, filter);
+}
+
+std::optional<TorqueBesideMotion> TorqueBesideMotion::of(Motion const& motion, MatrixXd const& model_columns,
+                                                         FilterOptions const& options, Section const& filter) {
+  auto parallel = std::make_shared<ParallelFilter const>(options, motion.rate_hz, motion.q.size(), filter);
+  auto rows = sampled_rows(motion, options, *parallel);
   if (rows.empty()) return std::nullopt;
   TorqueBesideMotion beside(std::move(parallel), std::move(rows));
-  auto const picked = [&](VectorXd const& signal) { return VectorXd(beside.filter_.pick(signal)(beside.rows_)); };
+  auto const picked = [&](VectorXd const& signal) { return VectorXd(beside.filter_->pick(signal)(beside.rows_)); };
   VectorXd const q = picked(motion.q), dq = picked(motion.dq), ddq = picked(motion.ddq);
   VectorXd const direction = beside.filtered(motion.dq.array().sign());
   VectorXd const loaded = beside.filtered(motion.dq.array().sign() * motion.ddq.array().abs());
 
-  MatrixXd const model = beside.filter_.apply_columns(regressor.columns(motion))(beside.rows_, Eigen::all);
+  MatrixXd const model = beside.filter_->apply_columns(model_columns)(beside.rows_, Eigen::all);
   MatrixXd const along = hats(q, knots);
   MatrixXd const friction_along = along.array().colwise() * direction.array();
   MatrixXd columns = side_by_side({model, along, hats(dq, knots), friction_along, direction, loaded});
@@ -70,9 +92,7 @@ std::optional<TorqueBesideMotion> TorqueBesideMotion::of(Recording const& record
   if (q.size() < fewest_rows_a_column * columns.cols()) return std::nullopt;
 
   beside.basis_ = PivotedQr(columns, dependent).basis();
-  VectorXd const torque = beside.filtered(motion.torque);
-  beside.left_ = beside.left_of(torque);
-  beside.torque_rms_ = std::sqrt(torque.squaredNorm() / static_cast<double>(torque.size()));
+  beside.take(motion.torque);
   beside.time_s_ = picked(motion.time_s);
   beside.scaled_ = side_by_side({direction, unit_rms(q.array() - q.mean()), unit_rms(dq), unit_rms(ddq)});
   return beside;

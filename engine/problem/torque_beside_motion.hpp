@@ -9,6 +9,7 @@
 // Threads    const object, any number of threads
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,11 @@ class TorqueBesideMotion {
   // `filter`: the job's section, for the places in messages
   static std::optional<TorqueBesideMotion> of(Recording const& recording, FilterOptions const& options,
                                               Regressor const& regressor, Section const& filter);
+  // the same where the model's columns are known already: [n][k], of a joint of an arm
+  static std::optional<TorqueBesideMotion> of(Motion const& motion, Eigen::MatrixXd const& model_columns,
+                                              FilterOptions const& options, Section const& filter);
+  // the same motion with another torque, [n]
+  TorqueBesideMotion with(Eigen::VectorXd const& torque) const;
 
   Eigen::VectorXd const& left() const { return left_; }           // [r] of the torque
   Eigen::VectorXd const& time_s() const { return time_s_; }       // [r] as in the recording
@@ -29,12 +35,14 @@ class TorqueBesideMotion {
   Eigen::MatrixXd left_of(Eigen::MatrixXd columns) const;         // [r][k] less what the motion explains
   Eigen::VectorXd filtered(Eigen::VectorXd const& signal) const;  // n -> r, as the torque was
   double torque_rms() const { return torque_rms_; }
+  double error() const;  // rms of left() over that of the torque
 
  private:
-  TorqueBesideMotion(ParallelFilter filter, std::vector<Eigen::Index> rows)
+  TorqueBesideMotion(std::shared_ptr<ParallelFilter const> filter, std::vector<Eigen::Index> rows)
       : filter_(std::move(filter)), rows_(std::move(rows)) {}
+  void take(Eigen::VectorXd const& torque);
 
-  ParallelFilter filter_;
+  std::shared_ptr<ParallelFilter const> filter_;
   std::vector<Eigen::Index> rows_;  // of the filter's
   Eigen::MatrixXd basis_, scaled_;
   Eigen::VectorXd left_, time_s_;

@@ -28,6 +28,7 @@
 #include "engine/run/recordings_of_job.hpp"
 #include "engine/run/sample_range.hpp"
 #include "engine/run/simulated_arms.hpp"
+#include "engine/run/torque_findings.hpp"
 
 namespace torquescope {
 namespace {
@@ -192,6 +193,7 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
     auto& joint = joints[j];
     char const* const unit = model.chain().joints[j].kind == JointKind::revolute ? "rad" : "m";
     auto facts = measure_channels(joint);
+    set.lone.push_back(joint.lone);
     whole.warnings.insert(whole.warnings.end(), joint.warnings.begin(), joint.warnings.end());
     whole.findings.insert(whole.findings.end(), joint.findings.begin(), joint.findings.end());
     motion.push_back(differentiate(std::move(joint), parts.filter, filter));
@@ -301,7 +303,7 @@ ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Paylo
 }
 
 void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, PayloadPlan const& payloads,
-                   RecordedTables const& tables) {
+                   RecordedTables const& tables, Experiment::Purpose purpose) {
   auto const names = parts.arm->model.joint_names();
   Files train = read_files(parts.job, options.train, options, payloads.train, names, tables);
   Files unseen = read_files(parts.job, options.validate, options, payloads.validate, names, tables);
@@ -314,6 +316,7 @@ void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, Pa
     }
   for (auto& file : train) grade_standstill(file.joints);
   choose_filter(parts, train, unseen);
+  for (auto* files : {&train, &unseen}) examine_arm_torques(*files, parts, options, purpose);
   use_recordings(parts, std::move(train), std::move(unseen));
 }
 

@@ -18,7 +18,7 @@ ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Paylo
 
 // fills train, validate, the filter where the job has none, and what the arm's training rows tell
 void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, PayloadPlan const& payloads,
-                   RecordedTables const& tables);
+                   RecordedTables const& tables, Experiment::Purpose purpose);
 // the same, and truth, from a simulation
 void use_arm_simulation(Experiment::Parts& parts, ArmSimulationPlan const& plan);
 

@@ -14,6 +14,7 @@
 #include "engine/problem/arm_regression.hpp"
 #include "engine/robot/forward_dynamics.hpp"
 #include "engine/run/fit_findings.hpp"
+#include "engine/run/torque_findings.hpp"
 
 namespace torquescope {
 namespace {
@@ -155,9 +156,11 @@ ArmIdentifiability arm_identifiability(Experiment::Parts const& parts) {
   return said;
 }
 
-std::vector<Finding> arm_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
+namespace {
+
+std::optional<Finding> negative_finding(Experiment::Parts const& parts, RecordingOptions const& options) {
   auto const& all = parts.train.regression;
-  if (too_few_rows(all) || !parts.health.identifiable) return {};
+  if (!parts.health.identifiable || is_computed(parts.train.recordings)) return {};
   // with gains among the parameters, least squares of noisy torques is nearly that of none: zeros of either sign
   bool const has_gains = !all.arm->gain_column.empty();
   auto const stated = has_gains ? std::optional(with_stated_gains(all)) : std::nullopt;
@@ -188,7 +191,17 @@ std::vector<Finding> arm_findings(Experiment::Parts const& parts, RecordingOptio
   if (finding.count == 0) return {};
   auto const torque = options.columns.find("torque");
   finding.column = torque != options.columns.end() ? torque->second : std::string();
-  return {finding};
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> arm_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
+  std::vector<Finding> findings;
+  if (too_few_rows(parts.train.regression)) return findings;
+  for (auto& found : {negative_finding(parts, options), influence_finding(parts)})
+    if (found) findings.push_back(*found);
+  return findings;
 }
 
 }  // namespace torquescope

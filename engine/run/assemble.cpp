@@ -219,7 +219,7 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
   if (parts->arm && plan.simulates)
     use_arm_simulation(*parts, plan.arm_simulation);
   else if (parts->arm)
-    use_arm_files(*parts, plan.recording, plan.payloads, tables);
+    use_arm_files(*parts, plan.recording, plan.payloads, tables, purpose);
   else
     use_joint_data(*parts, plan, purpose, tables, channels);
   auto const& rows = parts->train.regression;

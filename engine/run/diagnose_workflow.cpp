@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/data/arm_recording.hpp"
 #include "engine/diagnose/all_rows_arm.hpp"
 #include "engine/diagnose/all_rows_diagnosis.hpp"
 #include "engine/health/finding_text.hpp"
@@ -149,10 +150,16 @@ Diagnosis verdict_of_fault(Finding const& fault, Experiment::Parts const& parts)
 }
 
 // Where no effect is named, a zero that moves is what is wrong with the recording
-Diagnosis with_moving_zero(Diagnosis diagnosis, std::vector<Finding> const& findings) {
+Diagnosis with_moving_zero(Diagnosis diagnosis, std::vector<Finding> const& findings, Experiment::Parts const& parts) {
   auto const zero = zero_finding(findings);
-  if (!zero || diagnosis.verdict != Verdict::unexplained || diagnosis.joints.size() != 1) return diagnosis;
-  diagnosis.verdict = diagnosis.joints.front().verdict = Verdict::data_fault;
+  if (!zero || diagnosis.verdict != Verdict::unexplained) return diagnosis;
+  diagnosis.verdict = Verdict::data_fault;
+  for (std::size_t j = 0; j < diagnosis.joints.size(); ++j) {
+    std::string const title = parts.arm ? joint_title(j, parts.arm->model.joint_names()) : zero->joint;
+    auto const& likewise = zero->likewise;
+    if (title == zero->joint || std::find(likewise.begin(), likewise.end(), title) != likewise.end())
+      diagnosis.joints[j].verdict = Verdict::data_fault;
+  }
   diagnosis.finding = fmt::format("{}: {}", zero->recording, sentence_of(*zero));
   diagnosis.way_out = cure_of(*zero);
   diagnosis.reason = reason_sentence(diagnosis);
@@ -212,9 +219,10 @@ Diagnosis diagnose_parts(Experiment::Parts const& parts, int threads, TwinExchan
 Diagnosis diagnose_examined(Experiment const& experiment, int threads, TwinExchange* exchange, StageSink const& sink) {
   auto const findings = experiment.findings();
   auto const fault = std::find_if(findings.begin(), findings.end(), [](Finding const& one) { return is_fault(one); });
-  Diagnosis diagnosis = fault != findings.end()
-                            ? verdict_of_fault(*fault, experiment.parts())
-                            : with_moving_zero(diagnose_parts(experiment.parts(), threads, exchange, sink), findings);
+  Diagnosis diagnosis =
+      fault != findings.end()
+          ? verdict_of_fault(*fault, experiment.parts())
+          : with_moving_zero(diagnose_parts(experiment.parts(), threads, exchange, sink), findings, experiment.parts());
   diagnosis.findings = findings;
   return diagnosis;
 }

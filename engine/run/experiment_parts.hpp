@@ -44,6 +44,7 @@ struct DataSet {
   bool simulated = false;
   std::vector<std::size_t> n_samples{};             // per recording, as read
   std::vector<std::vector<RowAccount>> accounts{};  // per recording: of its joint, or of each of an arm
+  std::vector<std::vector<LoneRow>> lone{};         // likewise, one after the other: as the blocks of `regression`
   // of an arm: `recordings` has one entry a file, with what was found in any joint; `excitation` one a joint of each,
   // and `regression` the rows where a joint moves one way
   RegressionData other_rows{};

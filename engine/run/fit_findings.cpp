@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/data/arm_recording.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/levels.hpp"
 #include "engine/effects/passive_signs.hpp"
@@ -12,6 +13,7 @@
 #include "engine/problem/position_factor.hpp"
 #include "engine/problem/row_influence.hpp"
 #include "engine/run/search_box.hpp"
+#include "engine/run/torque_findings.hpp"
 
 namespace torquescope {
 namespace {
@@ -30,7 +32,7 @@ std::string torque_column(RecordingOptions const& options) {
 
 std::optional<Finding> sign_finding(Experiment::Parts const& parts, RecordingOptions const& options) {
   auto const& rows = parts.train.regression;
-  if (!parts.health.identifiable) return {};
+  if (!parts.health.identifiable || is_computed(parts.train.recordings)) return {};
   Eigen::VectorXd const parameters = solve_reduced(rows, parts.reductions);
   Eigen::VectorXd const signs = passive_signs(*parts.regressor);
   if (!((signs.array() * parameters.array()) < 0.0).any()) return {};
@@ -107,31 +109,32 @@ Finding influence_words(RegressionData const& rows, LoneRow const& lone, RowInfl
   return finding;
 }
 
-// a row that its neighbours contradict, and that moves a parameter by more than an error
+}  // namespace
+
 std::optional<Finding> influence_finding(Experiment::Parts const& parts) {
+  auto const& lone_rows = parts.train.lone;
+  bool const are_any = std::any_of(lone_rows.begin(), lone_rows.end(), [](auto const& some) { return !some.empty(); });
+  bool const has_gains = parts.train.regression.arm && !parts.train.regression.arm->gain_column.empty();
+  if (!parts.health.identifiable || !are_any || has_gains) return {};
   auto const& rows = parts.train.regression;
-  auto const& recordings = parts.train.recordings;
-  bool const are_any = std::any_of(recordings.begin(), recordings.end(), [](auto const& r) { return !r.lone.empty(); });
-  if (!parts.health.identifiable || !are_any) return {};
   RowInfluences const influences(rows, solve_reduced(rows, parts.reductions),
                                  spread_of_filters(parts.filter, rows.kept_rate_hz));
   std::optional<Finding> found;
   double most = levels::errors_of_one_row;
   for (std::size_t k = 0; k < rows.recordings(); ++k)
-    for (auto const& lone : recordings[k].lone) {
+    for (auto const& lone : lone_rows[k]) {
       auto const row = row_at(rows, k, lone.time_s);
       if (!row) continue;
       for (auto const& one : influences.of(*row)) {
         if (one.errors <= most || std::fabs(one.change) < levels::share_of_one_row * std::fabs(one.without)) continue;
         most = one.errors;
         found = influence_words(rows, lone, one);
-        found->recording = recordings[k].name;
+        found->recording = rows.recording_names[k];
+        if (rows.arm) found->joint = joint_title(rows.arm->joint[k], parts.arm->model.joint_names());
       }
     }
   return found;
 }
-
-}  // namespace
 
 LeastSquaresFit fit_with_errors(RegressionData const& data, Eigen::VectorXd parameters) {
   LeastSquaresFit fit;

@@ -7,6 +7,7 @@
 //            of the joint, which no passive joint allows: that is a fault, the other a warning
 // Threads    free function
 
+#include <optional>
 #include <vector>
 
 #include "engine/problem/least_squares.hpp"
@@ -16,6 +17,10 @@ namespace torquescope {
 
 // of all rows alike, with HAC errors
 LeastSquaresFit fit_with_errors(RegressionData const& data, Eigen::VectorXd parameters);
+
+// a row that its neighbours contradict, and that moves a parameter by more than an error; of a joint or an arm. Of a
+// position: what it does to the rows of its own joint
+std::optional<Finding> influence_finding(Experiment::Parts const& parts);
 
 // of recordings from files; needs parts.reductions
 std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptions const& options);

@@ -147,6 +147,7 @@ void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
     if (channels == Channels::taken) forget_channels(recording);
     measure_motion(motion, parts.filter, facts);
     set.accounts.push_back({account_of(motion, parts.filter, filter)});
+    set.lone.push_back(recording.lone);
     for (auto const& warning : excitation_warnings(facts, unit)) recording.warnings.push_back(warning);
     set.excitation.push_back(facts);
     append_rows(set.regression, recording.name, std::move(motion), parts.filter, *parts.regressor, filter, row_motion);

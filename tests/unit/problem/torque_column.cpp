@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "engine/problem/command_limit.hpp"
+#include "engine/problem/computed_torque.hpp"
 #include "engine/problem/torque_zero.hpp"
 #include "unit/problem/joint_data.hpp"
 
@@ -27,7 +28,8 @@ Recording controlled(double lower, double upper, std::function<double(double tim
   auto const n = static_cast<Index>(seconds * rate_hz);
   Recording recording;
   recording.rate_hz = rate_hz;
-  for (auto* channel : {&recording.time_s, &recording.position, &recording.torque}) channel->resize(n);
+  for (auto* channel : {&recording.time_s, &recording.position, &recording.reference, &recording.torque})
+    channel->resize(n);
   Eigen::VectorXd const noise = test::white_noise(n, 1, 0.01);
   double q = 0.0, dq = 0.0;
   constexpr int substeps = 20;
@@ -40,6 +42,7 @@ Recording controlled(double lower, double upper, std::function<double(double tim
     }
     double const asked = inertia * (900.0 * (reference - q) + 40.0 * (speed - dq));
     recording.time_s[i] = t;
+    recording.reference[i] = reference;
     recording.position[i] = q;
     recording.torque[i] = asked + noise[i];
     double const given = std::clamp(asked, lower, upper);
@@ -59,6 +62,23 @@ std::optional<TorqueBesideMotion> beside(Recording const& recording) {
   filter.cutoff_hz = 20.0, filter.parallel_cutoff_hz = 10.0, filter.decimate_to_hz = 50.0;
   Regressor const regressor({"inertia", "viscous", "coulomb", "offset"}, JointKind::revolute);
   return TorqueBesideMotion::of(recording, filter, regressor, {});
+}
+
+BesideOfJoints beside_joints(Recording recording, Eigen::VectorXd const& position) {
+  recording.position = position;
+  return {beside(recording)};
+}
+
+std::vector<ComputedTorque> computed(Recording const& recording) {
+  return computed_torques({recording}, beside_joints(recording, recording.position),
+                          [&](auto const& positions) { return beside_joints(recording, positions.front()); });
+}
+
+// what a model that knows no offset, and half of the friction, gives for the commanded motion
+Eigen::VectorXd model_of_reference(Recording const& recording) {
+  Eigen::VectorXd const speed = central_derivative(recording.reference, rate_hz);
+  return 1.3 * inertia * central_derivative(speed, rate_hz) + 0.5 * viscous * speed +
+         0.5 * coulomb * speed.unaryExpr(&smooth_sign);
 }
 
 std::optional<CommandLimit> limit_of(Recording const& recording) {
@@ -126,6 +146,35 @@ TEST(TorqueZero, IsNoneOfFrictionThatChanges) {
   EXPECT_FALSE(zero_of(controlled(-unlimited, unlimited, [](double t, double dq, double) {
     return (0.3 * smooth_sign(dq) + 0.1 * dq) * std::exp(-t / 8.0);
   })));
+}
+
+TEST(ComputedTorque, IsAModelsForTheCommandedMotion) {
+  auto recording = controlled(-unlimited, unlimited, nothing_more);
+  recording.torque = model_of_reference(recording);
+  auto const found = computed(recording);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_GT(found.front().error_of_motion, 3.0 * found.front().error_of_reference);
+}
+
+TEST(ComputedTorque, IsNoneOfATorqueThatMovesTheJoint) {
+  EXPECT_TRUE(computed(controlled(-unlimited, unlimited, nothing_more)).empty());
+  EXPECT_TRUE(computed(controlled(-unlimited, unlimited, [](double t, double dq, double) {
+                return 0.3 * std::sin(t) + 0.4 * smooth_sign(dq) * std::exp(-std::fabs(dq) / 0.1);
+              })).empty());
+}
+
+// the joint does what it is told, so that the commanded motion is the true one
+TEST(ComputedTorque, IsNoneWhereOnlyTheMeasuredPositionIsWrong) {
+  auto recording = controlled(-unlimited, unlimited, nothing_more);
+  recording.reference = recording.position;
+  constexpr Index late = 5;
+  Eigen::VectorXd const motion = recording.position;
+  recording.position.tail(motion.size() - late) = motion.head(motion.size() - late);
+  EXPECT_TRUE(computed(recording).empty());
+  constexpr double count = 2.0 * pi / 2048.0;
+  recording.position = (motion / count).array().round() * count;
+  recording.rows.encoder_step = count;
+  EXPECT_TRUE(computed(recording).empty());
 }
 
 }  // namespace torque_column_test
