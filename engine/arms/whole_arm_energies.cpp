@@ -6,8 +6,8 @@
 
 namespace torquescope {
 
-double noise_energy(WholeArmRows const& rows, Eigen::VectorXd const& residual, ArmStretch const& stretch,
-                    std::size_t joints) {
+Eigen::VectorXd noise_energies(WholeArmRows const& rows, Eigen::VectorXd const& residual, ArmStretch const& stretch,
+                               std::size_t joints) {
   RowBlock const& block = stretch.rows;
   std::vector<Eigen::Index> last(joints, -1);
   std::vector<double> squares(joints, 0.0), pairs(joints, 0.0), count(joints, 0.0);
@@ -22,10 +22,12 @@ double noise_energy(WholeArmRows const& rows, Eigen::VectorXd const& residual, A
     }
     before = i;
   }
-  double energy = 0.0;
+  Eigen::VectorXd energies = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joints));
   for (std::size_t j = 0; j < joints; ++j)
-    if (pairs[j] > 0.0) energy += count[j] * squares[j] / (2.0 * (1.0 - stretch.noise_correlation) * pairs[j]);
-  return energy;
+    if (pairs[j] > 0.0)
+      energies[static_cast<Eigen::Index>(j)] =
+          count[j] * squares[j] / (2.0 * (1.0 - stretch.noise_correlation) * pairs[j]);
+  return energies;
 }
 
 double plain_energy(WholeArmRows const& rows, Eigen::VectorXd const& noise, Eigen::VectorXd const& of, RowBlock block) {
@@ -41,18 +43,23 @@ double energy_on(Eigen::VectorXd const& of, RowBlock const& block) {
   return of.segment(block.from, block.size()).squaredNorm();
 }
 
-double least_left_share(WholeArmRows const& rows, Eigen::VectorXd const& before, Eigen::VectorXd const& after,
-                        std::span<ArmStretch const> stretches, std::size_t joints) {
-  std::vector<double> was(joints, 0.0), is(joints, 0.0);
+Eigen::VectorXd energies_on(WholeArmRows const& rows, Eigen::VectorXd const& of, std::span<ArmStretch const> stretches,
+                            std::size_t joints) {
+  Eigen::VectorXd energies = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joints));
   for (ArmStretch const& stretch : stretches)
-    for (Eigen::Index i = stretch.rows.from; i < stretch.rows.to; ++i) {
-      std::size_t const joint = rows.rows[static_cast<std::size_t>(i)].joint;
-      was[joint] += before[i] * before[i];
-      is[joint] += after[i] * after[i];
-    }
+    for (Eigen::Index i = stretch.rows.from; i < stretch.rows.to; ++i)
+      energies[static_cast<Eigen::Index>(rows.rows[static_cast<std::size_t>(i)].joint)] += of[i] * of[i];
+  return energies;
+}
+
+double explained_share(double before, double after, double noise) {
+  return before > after ? (before - after) / (before - std::min(noise, after)) : 0.0;
+}
+
+double least_left_share(Eigen::VectorXd const& before, Eigen::VectorXd const& after) {
   double least = 1.0;
-  for (std::size_t j = 0; j < joints; ++j)
-    if (was[j] > 0.0) least = std::min(least, std::sqrt(is[j] / was[j]));
+  for (Eigen::Index j = 0; j < before.size(); ++j)
+    if (before[j] > 0.0) least = std::min(least, std::sqrt(after[j] / before[j]));
   return least;
 }
 

@@ -19,12 +19,18 @@ double energy_on(Eigen::VectorXd const& of, RowBlock const& block);
 // over all joints in their own units; noise: [N]
 double plain_energy(WholeArmRows const& rows, Eigen::VectorXd const& noise, Eigen::VectorXd const& of, RowBlock block);
 
-// of noise in the residual on the rows of a stretch
-double noise_energy(WholeArmRows const& rows, Eigen::VectorXd const& residual, ArmStretch const& stretch,
-                    std::size_t joints);
+// [N] of a signal at each joint
+Eigen::VectorXd energies_on(WholeArmRows const& rows, Eigen::VectorXd const& of, std::span<ArmStretch const> stretches,
+                            std::size_t joints);
 
-// error after over error before, of the joint where it falls most
-double least_left_share(WholeArmRows const& rows, Eigen::VectorXd const& before, Eigen::VectorXd const& after,
-                        std::span<ArmStretch const> stretches, std::size_t joints);
+// [N] of noise in the residual on the rows of a stretch
+Eigen::VectorXd noise_energies(WholeArmRows const& rows, Eigen::VectorXd const& residual, ArmStretch const& stretch,
+                               std::size_t joints);
+
+// of the mismatch. What is rougher than noise makes noise look larger than it is: no more is noise than is left
+double explained_share(double before, double after, double noise);
+
+// error after over error before, of the joint where it falls most; energies of each joint
+double least_left_share(Eigen::VectorXd const& before, Eigen::VectorXd const& after);
 
 }  // namespace torquescope

@@ -104,23 +104,26 @@ class WholeArmWork {
     found.z = scanned.z;
     found.p = scanned.p;
     auto const stretches = concerned(found.time);
-    double before = 0.0, after = 0.0, noise = 0.0, plain_before = 0.0, plain_after = 0.0, plain_torque = 0.0;
+    std::size_t const joints = question_.model.joints();
+    Eigen::VectorXd const before = energies_on(rows_, left, stretches, joints),
+                          after = energies_on(rows_, one.left, stretches, joints);
+    Eigen::VectorXd noise = Eigen::VectorXd::Zero(before.size());
+    double plain_before = 0.0, plain_after = 0.0, plain_torque = 0.0;
     for (ArmStretch const& stretch : stretches) {
-      before += energy_on(left, stretch.rows);
-      after += energy_on(one.left, stretch.rows);
-      noise += noise_energy(rows_, residual_, stretch, question_.model.joints());
+      noise += noise_energies(rows_, residual_, stretch, joints);
       plain_before += plain_energy(rows_, noise_, left, stretch.rows);
       plain_after += plain_energy(rows_, noise_, one.left, stretch.rows);
       plain_torque += plain_energy(rows_, noise_, rows_.torque, stretch.rows);
     }
-    // what is rougher than noise makes it look larger than it is: no more is noise than is left
-    found.explained = before > after ? (before - after) / (before - std::min(noise, after)) : 0.0;
+    found.explained = explained_share(before.sum(), after.sum(), noise.sum());
+    found.explained_at.resize(before.size());
+    for (Eigen::Index j = 0; j < before.size(); ++j)
+      found.explained_at[j] = explained_share(before[j], after[j], noise[j]);
     found.before = std::sqrt(plain_before / plain_torque);
     found.after = std::sqrt(plain_after / plain_torque);
     look_at_unseen(found);
     Blocks const which = found.time ? Blocks::where_it_acts : Blocks::alike;
-    found.reason = reason_of(found, gain_of(stretches, left, one.left, which),
-                             least_left_share(rows_, left, one.left, stretches, question_.model.joints()));
+    found.reason = reason_of(found, gain_of(stretches, left, one.left, which), least_left_share(before, after));
     return one;
   }
 

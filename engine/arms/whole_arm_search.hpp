@@ -40,6 +40,7 @@ struct FoundWholeArmLaw {
   std::vector<bool> is_told{};
   double z = 0.0, p = 1.0;
   double explained = 0.0;            // share of the mismatch, on rows left out
+  Eigen::VectorXd explained_at{};    // [N] the same of each joint
   double before = 0.0, after = 0.0;  // relerr over all joints on rows left out, of the recordings it may act in
   double unseen_before = 0.0, unseen_after = 0.0;         // the same of unseen recordings it acts in; 0: none
   std::vector<std::optional<ActingTime>> unseen_times{};  // of each unseen recording; none: it does not act there

@@ -81,6 +81,7 @@ class ArmWork {
     diagnosis.q = input_.selection.q;
     diagnosis.arm = account_for_whole_arm(answers_, {names_of(train_), names_of(unseen_)}, whole_arm_level());
     for (auto& outcome : outcomes_) diagnosis.joints.push_back(joint_of(outcome.diagnosis));
+    credit_laws_of_whole_arm(diagnosis.joints);
     diagnosis.verdict = verdict_of_arm(diagnosis.joints, diagnosis.arm->effects);
     diagnosis.reason = arm_reason_sentence(diagnosis);
     return diagnosis;
@@ -133,6 +134,19 @@ class ArmWork {
     joint.verdict = made.verdict;
     joint.reason = std::move(made.reason);
     return joint;
+  }
+
+  // A joint most of whose mismatch a law of the whole arm explains is not unexplained: what is left of it is
+  void credit_laws_of_whole_arm(std::vector<JointDiagnosis>& joints) const {
+    for (auto const& answer : answers_)
+      for (auto const& law : answer.accepted)
+        for (std::size_t j = 0; j < joints.size(); ++j) {
+          double const share = law.explained_at[static_cast<Eigen::Index>(j)];
+          if (joints[j].verdict != Verdict::unexplained || share <= most_of_it) continue;
+          joints[j].verdict = Verdict::partly;
+          joints[j].explained_share = share;
+          joints[j].reason = explained_by_arm_sentence(law.law.effect->name(), share) + " " + joints[j].reason;
+        }
   }
 
   std::vector<RecordedArm> less(LawsOfJoints const& laws) const {

@@ -174,10 +174,16 @@ std::vector<std::vector<bool>> telling_samples(std::vector<std::vector<bool>> mo
   return moves;
 }
 
+// what the recordings say of their own set-up and time
+struct SetupRows {
+  ArmSamples samples{};
+  LaggedGrams lagged{};
+};
+
 // one recording of the arm: its rows, and into `set` what is to be said about it; into `track`, if there is one, what
 // its instruments are made from
 RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& parts, DataSet& set, ArmTrack* track,
-                               ArmSamples* samples) {
+                               SetupRows* setup) {
   auto& joints = file.joints;
   Section const filter = section_or_empty(parts.job, "filter");
   auto const& model = parts.arm->model;
@@ -205,11 +211,13 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
   auto const moves = samples_one_way(model, motion, parallel_cutoff_of(parts.filter));
   if (track != nullptr) track->moves = moves;
   constexpr Index most_samples = 1200;
-  if (samples != nullptr && !file.payload)
-    samples->add(motion, telling_samples(moves, motion, parts.filter), edge_samples(parts.filter, whole.rate_hz),
-                 most_samples, file.outside);
+  if (setup != nullptr && !file.payload)
+    setup->samples.add(motion, telling_samples(moves, motion, parts.filter), edge_samples(parts.filter, whole.rate_hz),
+                       most_samples, file.outside);
   whole.findings = joined_findings(whole.findings);
   auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter, file.payload);
+  if (setup != nullptr && model.gain_columns().empty())
+    setup->lagged.add(model, motion, rows, ParallelFilter(parts.filter, rows.rate_hz, motion.front().q.size(), filter));
   set.recordings.push_back(std::move(whole));
   set.accounts.push_back(rows.accounts);
   for (std::size_t j = 0; j < names.size(); ++j) set.accounts.back()[j].joint = joint_title(j, names);
@@ -217,11 +225,11 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
 }
 
 std::vector<RecordedRows> prepare_files(Files&& files, Experiment::Parts const& parts, DataSet& set,
-                                        std::vector<ArmTrack>* tracks = nullptr, ArmSamples* samples = nullptr) {
+                                        std::vector<ArmTrack>* tracks = nullptr, SetupRows* setup = nullptr) {
   std::vector<RecordedRows> rows;
   for (auto& file : files) {
     ArmTrack* const track = tracks != nullptr ? &tracks->emplace_back() : nullptr;
-    rows.push_back(prepare_recording(std::move(file), parts, set, track, samples));
+    rows.push_back(prepare_recording(std::move(file), parts, set, track, setup));
   }
   return rows;
 }
@@ -261,9 +269,10 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
   std::vector<ArmTrack> tracks;
   bool const is_instrumental = instrumental_section(parts) != nullptr;
   if (is_instrumental) require_references(parts, train);
-  ArmSamples samples;
-  auto const rows = prepare_files(std::move(train), parts, parts.train, is_instrumental ? &tracks : nullptr, &samples);
-  parts.arm->samples = std::move(samples);
+  SetupRows setup;
+  auto const rows = prepare_files(std::move(train), parts, parts.train, is_instrumental ? &tracks : nullptr, &setup);
+  parts.arm->samples = std::move(setup.samples);
+  parts.arm->lagged = std::move(setup.lagged);
   parts.arm->grams = filtered_grams(rows, parts.arm->model);
   parts.arm->noise = noise_levels(parts.arm->grams, static_cast<Eigen::Index>(parts.parameters()));
   stack(rows, parts, parts.train);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/arms/arm_setup.hpp"
+#include "engine/arms/torque_delay.hpp"
 #include "engine/data/excitation.hpp"
 #include "engine/data/motion.hpp"
 #include "engine/data/recording.hpp"
@@ -59,6 +60,7 @@ struct ArmParts {
   NoiseLevels noise{};                         // of the joints
   std::optional<OtherConvention> otherwise{};  // of the robot file, for the same
   ArmSamples samples{};                        // of training recordings without a payload, for their set-up
+  LaggedGrams lagged{};                        // of the training rows, for the time of the torques
   // of a diagnosis
   bool keeps_channels = false;
   std::vector<RecordedArm> train{}, validate{};

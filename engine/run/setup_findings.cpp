@@ -134,6 +134,28 @@ void add_link_change(Experiment::Parts const& parts, std::vector<Finding>& findi
   findings.push_back(std::move(finding));
 }
 
+// Torques that come late. To a fit they are noise of a few percent; a diagnosis would find physics for them
+std::optional<Finding> late_torques(Experiment::Parts const& parts, RecordingOptions const& options, SetupUse use) {
+  auto const late = find_torque_delays(parts.arm->lagged);
+  if (late.empty()) return {};
+  Finding finding = finding_of(parts, FindingKind::arm_setup);
+  finding.grade = use == SetupUse::diagnosis ? Grade::fault : Grade::warning;
+  finding.count = std::ssize(late);
+  auto const names = parts.arm->model.joint_names();
+  VectorXd delays = of_joints(options.delay_s, parts.arm->model.chain().size());
+  constexpr double digits = 1e4;  // a tenth of a millisecond
+  for (auto const& one : late) {
+    if (!finding.detail.empty()) finding.detail += "; and ";
+    finding.detail += fmt::format("the torque of {} comes {:.3g} ms {} (error on held-out blocks: {:.3g} to {:.2g} %)",
+                                  joint_title(one.joint, names), 1e3 * std::abs(one.seconds),
+                                  one.seconds > 0.0 ? "late" : "early", 100.0 * one.before, 100.0 * one.after);
+    double& delay = delays[static_cast<Index>(one.joint)];
+    delay = std::round(digits * (delay - one.seconds)) / digits;
+  }
+  finding.line_to_write = "delay_s = " + list_of(delays);
+  return finding;
+}
+
 // A file whose own masses leave less than this of every joint's torque is the file of this arm: it tells more than a
 // guess of masses could, which is off by a third
 bool file_explains(SetupStep const& step) {
@@ -201,7 +223,10 @@ std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOpt
   }
   SetupSearch const found = search_setup(arm.samples, with_own_drives(arm.model.chain()), chain_otherwise(arm));
   if (found.steps.empty()) {
-    add_link_change(parts, findings);
+    if (auto late = late_torques(parts, options, use))
+      findings.push_back(std::move(*late));
+    else
+      add_link_change(parts, findings);
     return findings;
   }
   Finding finding = finding_of(parts, FindingKind::arm_setup);

@@ -108,6 +108,11 @@ std::string too_few_rows_sentence(std::vector<std::string> const& recordings) {
                      recordings.size() == 1 ? "has" : "have");
 }
 
+std::string explained_by_arm_sentence(std::string const& effect, double share) {
+  return fmt::format("The {} of the whole arm explains {} of this joint's mismatch; of what is left:", in_words(effect),
+                     percent_text(share));
+}
+
 std::string own_masses_sentence(double own_relerr, double shared_relerr) {
   return fmt::format(
       "The masses that the rows of this joint tell are not those of the other joints: its error is {} with its own, "

@@ -33,6 +33,9 @@ std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& f
 // "tuesday.csv has too few rows of this joint moving one way to judge it."
 std::string too_few_rows_sentence(std::vector<std::string> const& recordings);
 
+// "The joint compliance of the whole arm explains 82 % of this joint's mismatch; of what is left:"
+std::string explained_by_arm_sentence(std::string const& effect, double share);
+
 // "The masses that the rows of this joint tell are not those of the other joints: its relerr is 1.3 % with its own, and
 // 4.6 % with those that all share."
 std::string own_masses_sentence(double own_relerr, double shared_relerr);

@@ -73,7 +73,7 @@ def judged_decoy(truth, verdict, named, row):
     late = {joint for joint, effects in named.items() if any(kin & set(truth["may_name"]) for *_, kin in effects)}
     row["false_joints"] = sorted(joint for joint, effects in named.items()
                                  if not all(kin & set(truth["may_name"]) for *_, kin in effects))
-    doubtful = {one["joint"] for one in verdict["joints"] if one["verdict"] in ("unexplained", "data_fault")}
+    doubtful = {one["joint"] for one in verdict["joints"] if one.get("verdict") in ("unexplained", "data_fault")}
     refused = verdict["verdict"] == "data_fault" or not verdict["joints"]
     row["told"] = not row["false_joints"] and (refused or bool(part & (late | doubtful)))
 
