@@ -263,7 +263,7 @@ class Page(browser.Browser):
         layout = self.script("return JSON.parse(document.querySelector('#trace_1 svg.wide').dataset.layout)")
         shades = self.script("return [...document.querySelectorAll('#trace_1 svg.wide [data-part=regions] path')]"
                              ".map((p) => p.getAttribute('d'))")
-        self.assertEqual(len(shades), 3)
+        self.assertEqual(len(shades), 4)  # torque, residuals before and after, position
         per_second = (layout["right"] - layout["left"]) / 3.0
         for shade in shades:
             boxes = [(float(a), float(b)) for a, b in re.findall(r"M(-?[\d.]+) [\d.]+H(-?[\d.]+)V", shade)]
@@ -396,7 +396,7 @@ class Page(browser.Browser):
         if support.EXAMPLE_WRITER:
             self.open("named", width=400)
             row = self.browser.find_element(By.CSS_SELECTOR, ".candidates .kept th").text
-            self.assertRegex(row, r"(?s)Stribeck friction.*reversal.*q.*CV gain")
+            self.assertRegex(row, r"(?s)Stribeck friction.*reversal.*CV gain")
 
     @support.needs_diagnoses
     def test_no_table_is_cut_off_on_paper(self):

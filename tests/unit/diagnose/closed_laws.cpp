@@ -90,7 +90,7 @@ TEST(ClosedLaws, ASpringIsFoundAtOneSpeed) {
       strokes, [](double q) { return 0.8 * (q - 1.0); }, 40.0, 2);
   Diagnosis const diagnosis = diagnosed(recording, {}, {"spring", "stribeck", "speed_drag"});
   EXPECT_TRUE(names(diagnosis, "spring")) << word(diagnosis.verdict) << ": " << diagnosis.reason;
-  EXPECT_THAT(diagnosis.reason, HasSubstr("Only one speed was recorded: nothing is known of laws of the velocity"));
+  EXPECT_THAT(diagnosis.reason, HasSubstr("Only one speed was recorded: nothing is known of effects of the velocity"));
   for (auto const& candidate : diagnosis.joints.front().candidates) EXPECT_EQ(candidate.name, "spring");
 }
 
