@@ -125,8 +125,7 @@ std::string what(Finding const& f) {
                            column);
       return fmt::format(
           "{} is what a model gives for the commanded motion \"{}\", with an error of {:.2g} %; for the measured "
-          "motion "
-          "the error is {:.2g} %: it was computed, not measured",
+          "motion it is {:.2g} %: it was computed, not measured",
           column, f.detail, 100 * f.error_after, 100 * f.error_before);
     case torque_zero_steps:
       return fmt::format(

@@ -131,8 +131,9 @@ def draw(rng, folder):
             if "spikes" in text or f"line {row + 2}" in text:
                 return None
             clean = call("run", "clean/job.toml", "--out", "c.h5").parameters()
-            moved = {key: run.parameters()[key] / clean[key] for key in (f"viscous_{joint + 1}", f"coulomb_{joint + 1}")}
-            return f"{label}: not a word, {moved}" if max(abs(x - 1) for x in moved.values()) > MOVED else None
+            keys = (f"viscous_{joint + 1}", f"coulomb_{joint + 1}")
+            moved = [run.parameters()[key] / clean[key] - 1 for key in keys]
+            return f"{label}: not a word, moved by {moved}" if max(map(abs, moved)) > MOVED else None
         wanted = {"limit": "command_beyond_limit", "step": "torque_zero_steps", "drift": "torque_zero_drifts"}[kind]
         if [line["topic"] for line in said] != [wanted]:
             return f"{label}: check says {said}"
