@@ -125,7 +125,7 @@ std::string what_of(Diagnosis const& diagnosis, JointDiagnosis const& joint, Ver
     case Verdict::partly: {
       std::string const share = share_text(joint.explained_share, joint.explained_low, joint.explained_high);
       if (joint.effects.empty())
-        return (share.empty() ? "" : share + " of the mismatch by a law of the whole arm; of what is left, ") +
+        return (share.empty() ? "" : share + " of the mismatch by an effect of the whole arm; of what is left, ") +
                unexplained_text(joint);
       return (share.empty() ? "" : share + " of the mismatch by ") + named_text(joint, 1);
     }
