@@ -92,7 +92,7 @@ std::vector<std::string> end_lines(std::vector<Limb> const& ends) {
   if (ends.size() > 1) problem.notes = end_lines(ends);
   problem.help = fmt::format(
       "hold it while you record, and write root = \"{}\"{} beside the robot file ([model], or [robot] beside urdf; "
-      "describe --root)",
+      "describe and init take --root and --tip)",
       first->floats, tip);
   throw Error(std::move(problem));
 }

@@ -54,9 +54,9 @@ std::string position_pattern(ColumnGuess const& guess, std::vector<std::string> 
 class ArmDrafter {
  public:
   ArmDrafter(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& robot,
-             std::filesystem::path const& job_file)
-      : recordings_(recordings), robot_(robot), job_file_(job_file) {
-    for (auto const& joint : describe_robot(robot).joints) joint_names_.push_back(joint.name);
+             std::filesystem::path const& job_file, RobotPart const& part)
+      : recordings_(recordings), robot_(robot), job_file_(job_file), part_(part) {
+    for (auto const& joint : describe_robot(robot, part).joints) joint_names_.push_back(joint.name);
   }
 
   JobDraft draft() {
@@ -191,6 +191,8 @@ class ArmDrafter {
   void write_model() {
     text_.section("[model]");
     text_.setting("robot", toml_text(path_from(job_file_, robot_)));
+    if (!part_.root.empty()) text_.setting("root", toml_text(part_.root), "the link that stands still");
+    if (!part_.tip.empty()) text_.setting("tip", toml_text(part_.tip), "the link where the arm ends");
     text_.setting("friction", R"(["viscous", "coulomb", "offset"])", "of every joint");
     text_.setting("drive_inertia", "true", "of motor and gear; false where the robot's file has them in the links");
     text_.section("[[estimator]]");
@@ -213,6 +215,7 @@ class ArmDrafter {
   std::vector<std::filesystem::path> const& recordings_;
   std::filesystem::path const& robot_;
   std::filesystem::path const& job_file_;
+  RobotPart const& part_;
   std::vector<std::string> joint_names_{};
   RecordingGuess any_{};
   std::vector<RecordingGuess> joints_{};  // in the robot's order
@@ -242,9 +245,9 @@ std::optional<std::string> column_pattern(std::string const& column, std::vector
 }
 
 JobDraft draft_arm_job(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& robot,
-                       std::filesystem::path const& job_file) {
+                       std::filesystem::path const& job_file, RobotPart const& part) {
   for (auto const& recording : recordings) refuse_no_recording(recording);
-  return ArmDrafter(recordings, robot, job_file).draft();
+  return ArmDrafter(recordings, robot, job_file, part).draft();
 }
 
 }  // namespace torquescope

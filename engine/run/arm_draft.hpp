@@ -12,12 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/robot/robot_part.hpp"
 #include "engine/run/job_draft.hpp"
 
 namespace torquescope {
 
+// part: of a robot with branches or a floating base, the arm that the recording is of
 JobDraft draft_arm_job(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& robot,
-                       std::filesystem::path const& job_file);
+                       std::filesystem::path const& job_file, RobotPart const& part = {});
 
 // column: of the first joint; columns: all of the file. Nothing: no mark gives a column of every joint
 std::optional<std::string> column_pattern(std::string const& column, std::vector<std::string> const& joint_names,

@@ -25,6 +25,7 @@ struct InitArguments {
   std::vector<std::string> recordings{};
   std::string out{};
   std::string joint{}, robot{};
+  RobotPart part{};
   bool servo = false;
   std::string time{}, position{}, torque{}, reference{};
 
@@ -73,7 +74,7 @@ ExitCode init_job(InitArguments const& arguments, Session const& session) {
       arguments.robot.empty()
           ? draft_job(recordings, job, joint_number(recordings.front(), arguments.joint),
                       arguments.servo ? DraftKind::servo : DraftKind::of_the_files, arguments.named())
-          : draft_arm_job(recordings, arguments.robot, job);
+          : draft_arm_job(recordings, arguments.robot, job, arguments.part);
   if (arguments.out.empty())
     session.verdict(draft.text);
   else
@@ -109,12 +110,21 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
                                        "[the first that moves]")
                           ->type_name("N|NAME")
                           ->group("recording");
-  command
-      ->add_option(
-          "--robot", arguments->robot,
-          "a job for a whole arm: its URDF or robot file, whose joints the columns are named or numbered after")
-      ->type_name("ROBOT")
-      ->excludes(joint)
+  auto* const robot =
+      command
+          ->add_option(
+              "--robot", arguments->robot,
+              "a job for a whole arm: its URDF or robot file, whose joints the columns are named or numbered after")
+          ->type_name("ROBOT")
+          ->excludes(joint)
+          ->group("recording");
+  command->add_option("--root", arguments->part.root, "link of the robot that stands still, with all before it")
+      ->type_name("LINK")
+      ->needs(robot)
+      ->group("recording");
+  command->add_option("--tip", arguments->part.tip, "link of the robot where the arm ends")
+      ->type_name("LINK")
+      ->needs(robot)
       ->group("recording");
   struct Channel {
     char const* option;

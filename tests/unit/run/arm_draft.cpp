@@ -72,6 +72,25 @@ TEST_F(ArmDraftTest, OfAnotherRobotHasLinesToEdit) {
   EXPECT_THAT(made.warnings.front(), HasSubstr("the file has positions js/wrist/position, js/elbow/position"));
 }
 
+TEST_F(ArmDraftTest, OfARobotWithBranchesIsOfTheArmThatWasChosen) {
+  auto const two_arms = [this] {
+    std::string text = "<robot name=\"a\">";
+    for (auto const* link : {"l0", "l1", "l2", "r1"}) text += fmt::format("<link name=\"{}\"/>", link);
+    for (auto const& [name, parent, child] :
+         {std::tuple{"elbow", "l0", "l1"}, std::tuple{"wrist", "l1", "l2"}, std::tuple{"other", "l0", "r1"}})
+      text += fmt::format(
+          "<joint name=\"{}\" type=\"revolute\"><parent link=\"{}\"/><child link=\"{}\"/><axis xyz=\"0 1 0\"/>"
+          "<limit lower=\"-3\" upper=\"3\" effort=\"9\" velocity=\"9\"/></joint>",
+          name, parent, child);
+    return folder_.write("two.urdf", text + "</robot>");
+  }();
+  EXPECT_THROW(draft_arm_job({recording()}, two_arms, folder_ / "job.toml"), Error);
+  auto const made = draft_arm_job({recording()}, two_arms, folder_ / "job.toml", {"l0", "l2"});
+  EXPECT_THAT(made.text, AllOf(HasSubstr("root = \"l0\""), HasSubstr("tip = \"l2\""),
+                               HasSubstr("position = \"js/{name}/position\"")));
+  EXPECT_EQ(made.code, ExitCode::ok) << made.warnings.back();
+}
+
 TEST_F(ArmDraftTest, AJointIsChosenByNameOrByItsPlaceInTheFile) {
   auto const file = recording();
   EXPECT_EQ(joint_number(file, ""), 0u);
