@@ -64,7 +64,7 @@ def read(path, job, joints):
 
 
 def still_samples(speed, rate_hz, cutoff_hz):
-    """engine/pipeline/reversal_mask.hpp"""
+    """engine/infer/pipeline/reversal_mask.hpp"""
     still = np.abs(speed) < 0.005 * np.abs(speed).max()
     still[1:] |= speed[1:] * speed[:-1] < 0
     reach = int(np.ceil(1.6 / cutoff_hz * rate_hz))

@@ -62,7 +62,7 @@ void add_residual_energy_benchmarks(std::vector<std::string> const& instruction_
   for (std::size_t n_samples : {10'000, 1'000'000, 10'000'000})
     for (std::size_t n_regressors : {4, 11, 24, 60})
       for (auto const& name : instruction_sets) add({name, n_regressors, n_samples, 30, false});
-  // what a sweep for several runs at once does (engine/run/optimise.cpp)
+  // what a sweep for several runs at once does (engine/experiment/runs/optimise.cpp)
   for (std::size_t n_samples : {1'000'000, 10'000'000})
     for (std::size_t n_regressors : {4, 11, 24, 60})
       for (auto const& name : instruction_sets) add({name, n_regressors, n_samples, 120, false});

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "engine/rollout/rollout_residuals.hpp"
+#include "engine/simulate/rollout/rollout_residuals.hpp"
 
 using namespace torquescope;
 

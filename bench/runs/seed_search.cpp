@@ -22,14 +22,14 @@
 #include <stdexcept>
 
 #include "engine/base/heap.hpp"
-#include "engine/problem/residual_objective.hpp"
-#include "engine/problem/single_precision.hpp"
-#include "engine/problem/squared_error_floor.hpp"
-#include "engine/problem/statistics_objective.hpp"
-#include "engine/run/estimator_writer.hpp"
-#include "engine/run/optimise.hpp"
-#include "engine/run/run_scheduler.hpp"
+#include "engine/experiment/runs/optimise.hpp"
+#include "engine/experiment/runs/run_scheduler.hpp"
+#include "engine/fit/problem/residual_objective.hpp"
+#include "engine/fit/problem/single_precision.hpp"
+#include "engine/fit/problem/squared_error_floor.hpp"
+#include "engine/fit/problem/statistics_objective.hpp"
 #include "engine/store/scale_datasets.hpp"
+#include "engine/workflows/results/estimator_writer.hpp"
 
 namespace torquescope::bench {
 namespace {

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/rollout/loop_form.hpp"
-#include "engine/rollout/rollout_residuals.hpp"
+#include "engine/simulate/rollout/loop_form.hpp"
+#include "engine/simulate/rollout/rollout_residuals.hpp"
 
 using namespace torquescope;
 

@@ -1,6 +1,6 @@
 #include "engine/app/exit_codes.hpp"
 
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

@@ -83,7 +83,7 @@ struct Recording {
   // what the other joints of an arm do to this one; no channel: a diagnosis fills it
   std::shared_ptr<GivenSignals const> given{};
   std::vector<DataWarning> warnings{};
-  std::vector<Finding> findings{};                 // of the examination (engine/health)
+  std::vector<Finding> findings{};                 // of the examination (engine/data/health)
   std::vector<Stretch> left_out{};                 // no row within them is fitted: what stands there was filled
   std::vector<LeftOutStretch> left_out_because{};  // the same stretches one by one; they may overlap
   RowFacts rows{};

@@ -6,16 +6,16 @@
 #include <string>
 #include <utility>
 
-#include "engine/arms/arm_simulator.hpp"
-#include "engine/arms/rigid_columns.hpp"
-#include "engine/decision/delay_decision.hpp"
-#include "engine/decision/pooled_rows.hpp"
+#include "engine/account/arm_sentences.hpp"
+#include "engine/account/sentences.hpp"
 #include "engine/diagnose/all_rows_diagnosis.hpp"
 #include "engine/diagnose/arm_joint.hpp"
+#include "engine/diagnose/arms/arm_simulator.hpp"
+#include "engine/diagnose/arms/rigid_columns.hpp"
 #include "engine/diagnose/first_look.hpp"
-#include "engine/unseen/unseen_record.hpp"
-#include "engine/words/arm_sentences.hpp"
-#include "engine/words/sentences.hpp"
+#include "engine/infer/all_rows/delay_decision.hpp"
+#include "engine/infer/all_rows/pooled_rows.hpp"
+#include "engine/infer/validation/unseen_record.hpp"
 
 namespace torquescope {
 namespace {

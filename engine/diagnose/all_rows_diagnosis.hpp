@@ -1,5 +1,5 @@
 #pragma once
-// A diagnosis decided on all samples (engine/decision), told as every other diagnosis is.
+// A diagnosis decided on all samples (engine/infer/all_rows), told as every other diagnosis is.
 //
 // Errors     as diagnose_joint()
 // Threads    as diagnose_joint()
@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "engine/decision/joint_decision.hpp"
 #include "engine/diagnose/joint_diagnosis.hpp"
+#include "engine/infer/all_rows/joint_decision.hpp"
 
 namespace torquescope {
 
 // which decision a job asks for: that on moving rows, that on all, or the first with the other beside it
 enum class Decider { by_job, moving_rows, all_rows, both };  // by_job: "auto", of what the moving rows hold
-std::vector<std::string> decider_words();  // of a job file, in that order
+std::vector<std::string> decider_words();                    // of a job file, in that order
 Decider decider_of(std::string const& word);
 
 // what else is to be learnt from a decision, while it stands

@@ -7,17 +7,17 @@
 #include <string>
 #include <utility>
 
-#include "engine/arms/arm_simulator.hpp"
-#include "engine/arms/rigid_rows.hpp"
-#include "engine/arms/whole_arm_search.hpp"
+#include "engine/account/arm_sentences.hpp"
+#include "engine/account/sentences.hpp"
 #include "engine/diagnose/arm_joint.hpp"
+#include "engine/diagnose/arms/arm_simulator.hpp"
+#include "engine/diagnose/arms/rigid_rows.hpp"
+#include "engine/diagnose/arms/whole_arm_search.hpp"
 #include "engine/diagnose/beside_shared_arm.hpp"
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/whole_arm_account.hpp"
-#include "engine/pipeline/held_torque.hpp"
-#include "engine/statistics/blocked_cv.hpp"
-#include "engine/words/arm_sentences.hpp"
-#include "engine/words/sentences.hpp"
+#include "engine/fit/statistics/blocked_cv.hpp"
+#include "engine/infer/pipeline/held_torque.hpp"
 
 namespace torquescope {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "engine/diagnose/joint_diagnosis.hpp"
-#include "engine/problem/arm_model.hpp"
-#include "engine/problem/recorded_arm.hpp"
+#include "engine/fit/problem/arm_model.hpp"
+#include "engine/fit/problem/recorded_arm.hpp"
 
 namespace torquescope {
 

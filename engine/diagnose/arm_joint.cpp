@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/account/sentences.hpp"
 #include "engine/base/torque_unit.hpp"
-#include "engine/words/sentences.hpp"
 
 namespace torquescope {
 

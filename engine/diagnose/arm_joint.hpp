@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "engine/diagnose/arm_diagnosis.hpp"
-#include "engine/pipeline/recording_checks.hpp"
+#include "engine/infer/pipeline/recording_checks.hpp"
 
 namespace torquescope {
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/statistics/held_out_gain.hpp"
-#include "engine/words/sentences.hpp"
+#include "engine/account/sentences.hpp"
+#include "engine/fit/statistics/held_out_gain.hpp"
 
 namespace torquescope {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "engine/base/parallel.hpp"
 #include "engine/data/signal_facts.hpp"
-#include "engine/pipeline/simulator_gap.hpp"
-#include "engine/search/shape_refinement.hpp"
-#include "engine/unseen/unseen_record.hpp"
+#include "engine/infer/pipeline/simulator_gap.hpp"
+#include "engine/infer/search/shape_refinement.hpp"
+#include "engine/infer/validation/unseen_record.hpp"
 
 namespace torquescope {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/decision/decision_words.hpp"
+#include "engine/infer/all_rows/decision_words.hpp"
 
 namespace torquescope {
 namespace {

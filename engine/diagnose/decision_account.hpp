@@ -3,9 +3,9 @@
 //
 // Threads    pure function
 
-#include "engine/decision/decision_facts.hpp"
-#include "engine/decision/loop_facts.hpp"
-#include "engine/verdict/decision_account.hpp"
+#include "engine/infer/all_rows/decision_facts.hpp"
+#include "engine/infer/all_rows/loop_facts.hpp"
+#include "engine/infer/verdict/decision_account.hpp"
 
 namespace torquescope {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/locate/acting_region.hpp"
-#include "engine/locate/map_axes.hpp"
-#include "engine/pipeline/reversal_mask.hpp"
-#include "engine/statistics/scaled_solution.hpp"
+#include "engine/fit/statistics/scaled_solution.hpp"
+#include "engine/infer/locate/acting_region.hpp"
+#include "engine/infer/locate/map_axes.hpp"
+#include "engine/infer/pipeline/reversal_mask.hpp"
 
 namespace torquescope {
 namespace {

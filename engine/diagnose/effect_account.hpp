@@ -11,8 +11,8 @@
 // Units      SI
 // Threads    free functions
 
-#include "engine/search/model_stage.hpp"
-#include "engine/verdict/diagnosis.hpp"
+#include "engine/infer/search/model_stage.hpp"
+#include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/account/name_list.hpp"
 #include "engine/data/excitation.hpp"
 #include "engine/diagnose/model_account.hpp"
-#include "engine/pipeline/recording_checks.hpp"
-#include "engine/pipeline/shared_constants.hpp"
-#include "engine/pipeline/simulator_gap.hpp"
-#include "engine/pipeline/static_torque.hpp"
-#include "engine/words/name_list.hpp"
+#include "engine/infer/pipeline/recording_checks.hpp"
+#include "engine/infer/pipeline/shared_constants.hpp"
+#include "engine/infer/pipeline/simulator_gap.hpp"
+#include "engine/infer/pipeline/static_torque.hpp"
 
 namespace torquescope {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/diagnose/joint_diagnosis.hpp"
-#include "engine/pipeline/motion_limits.hpp"
+#include "engine/infer/pipeline/motion_limits.hpp"
 
 namespace torquescope {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The whole diagnosis of one joint: checks, search, adequacy, validation recordings, verdict.
 //
-// Verdict    engine/inference/THEORY.md, Verdict
+// Verdict    engine/infer/moving_rows/THEORY.md, Verdict
 // Errors     Error 78 for a filter that does not suit the recording; what a recording is to blame for is a verdict
 // Threads    spreads work over `threads`; same bits for any number
 // Source     METHOD.md
@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/decision/loop_stage.hpp"
-#include "engine/inference/decision_levels.hpp"
-#include "engine/search/selection.hpp"
-#include "engine/twin/twin_exchange.hpp"
-#include "engine/verdict/diagnosis.hpp"
+#include "engine/infer/all_rows/loop_stage.hpp"
+#include "engine/infer/moving_rows/decision_levels.hpp"
+#include "engine/infer/replicates/twin_exchange.hpp"
+#include "engine/infer/search/selection.hpp"
+#include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/search/detection_power.hpp"
-#include "engine/statistics/blocked_cv.hpp"
+#include "engine/fit/statistics/blocked_cv.hpp"
+#include "engine/infer/search/detection_power.hpp"
 
 namespace torquescope {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/search_in_time.hpp"
-#include "engine/inference/kept_model.hpp"
+#include "engine/infer/moving_rows/kept_model.hpp"
 
 namespace torquescope {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/rollout/drive_law.hpp"
+#include "engine/simulate/rollout/drive_law.hpp"
 
 namespace torquescope {
 namespace {

@@ -4,10 +4,10 @@
 //
 // Numbers    where simulations decided, those of their final model
 // Threads    pure functions
-// Source     engine/decision/THEORY.md, In the loop
+// Source     engine/infer/all_rows/THEORY.md, In the loop
 
-#include "engine/decision/loop_verdict.hpp"
-#include "engine/verdict/diagnosis.hpp"
+#include "engine/infer/all_rows/loop_verdict.hpp"
+#include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "engine/search/detection_power.hpp"
-#include "engine/search/parameter_intervals.hpp"
-#include "engine/statistics/blocked_cv.hpp"
+#include "engine/fit/statistics/blocked_cv.hpp"
+#include "engine/infer/search/detection_power.hpp"
+#include "engine/infer/search/parameter_intervals.hpp"
 
 namespace torquescope {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "engine/search/selection.hpp"
-#include "engine/verdict/diagnosis.hpp"
+#include "engine/infer/search/selection.hpp"
+#include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/diagnose/effect_account.hpp"
-#include "engine/search/blocked_mismatch.hpp"
-#include "engine/search/parameter_intervals.hpp"
+#include "engine/infer/search/blocked_mismatch.hpp"
+#include "engine/infer/search/parameter_intervals.hpp"
 
 namespace torquescope {
 namespace {

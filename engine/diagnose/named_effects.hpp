@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/inference/confidence_set.hpp"
-#include "engine/search/selection.hpp"
-#include "engine/verdict/diagnosis.hpp"
+#include "engine/infer/moving_rows/confidence_set.hpp"
+#include "engine/infer/search/selection.hpp"
+#include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

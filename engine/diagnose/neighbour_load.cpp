@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/data/levels.hpp"
-#include "engine/statistics/blocked_cv.hpp"
-#include "engine/statistics/forward_columns.hpp"
+#include "engine/fit/statistics/blocked_cv.hpp"
+#include "engine/fit/statistics/forward_columns.hpp"
 
 namespace torquescope {
 namespace {

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/pipeline/record_pipeline.hpp"
-#include "engine/statistics/held_out_gain.hpp"
+#include "engine/fit/statistics/held_out_gain.hpp"
+#include "engine/infer/pipeline/record_pipeline.hpp"
 
 namespace torquescope {
 

@@ -5,7 +5,7 @@
 // Twice      the same as once
 // Threads    function of its argument
 
-#include "engine/verdict/diagnosis.hpp"
+#include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/search/channel_timing.hpp"
+#include "engine/infer/search/channel_timing.hpp"
 
 namespace torquescope {
 

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/inference/stepwise.hpp"
+#include "engine/infer/moving_rows/stepwise.hpp"
 
 namespace torquescope {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/locate/mismatch_map.hpp"
-#include "engine/statistics/scaled_solution.hpp"
+#include "engine/fit/statistics/scaled_solution.hpp"
+#include "engine/infer/locate/mismatch_map.hpp"
 
 namespace torquescope {
 namespace {

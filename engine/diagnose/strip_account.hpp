@@ -6,8 +6,8 @@
 // Units      SI
 // Threads    free functions; the map spreads replicates over `threads`
 
-#include "engine/decision/joint_decision.hpp"
 #include "engine/diagnose/effect_account.hpp"
+#include "engine/infer/all_rows/joint_decision.hpp"
 
 namespace torquescope {
 

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <limits>
 
-#include "engine/statistics/student_t.hpp"
-#include "engine/words/arm_sentences.hpp"
+#include "engine/account/arm_sentences.hpp"
+#include "engine/fit/statistics/student_t.hpp"
 
 namespace torquescope {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/arms/whole_arm_search.hpp"
-#include "engine/verdict/diagnosis.hpp"
+#include "engine/diagnose/arms/whole_arm_search.hpp"
+#include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -7,7 +7,7 @@
 //              of it, 0 to 1, is a nuisance parameter of that recording
 // Phase        a wave over a counter keeps size and order; where the counter begins is another place in each recording
 // Threads      free functions
-// Source       engine/inference/THEORY.md, Effects of a clock
+// Source       engine/infer/moving_rows/THEORY.md, Effects of a clock
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "engine/python/job_source.hpp"
 
-#include "engine/run/foreign_file.hpp"
+#include "engine/experiment/foreign_file.hpp"
 
 namespace torquescope {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/job/job.hpp"
+#include "engine/experiment/job/job.hpp"
 
 namespace torquescope {
 

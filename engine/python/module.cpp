@@ -25,12 +25,12 @@
 #include "engine/base/contract.hpp"
 #include "engine/base/parallel.hpp"
 #include "engine/base/version.hpp"
+#include "engine/experiment/catalogue.hpp"
+#include "engine/experiment/robot_description.hpp"
 #include "engine/python/work.hpp"
-#include "engine/run/catalogue.hpp"
-#include "engine/run/job_draft.hpp"
-#include "engine/run/joint_choice.hpp"
-#include "engine/run/robot_description.hpp"
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/drafts/job_draft.hpp"
+#include "engine/workflows/drafts/joint_choice.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

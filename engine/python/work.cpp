@@ -9,8 +9,8 @@
 
 #include "engine/app/failure.hpp"
 #include "engine/app/result/finished_result.hpp"
-#include "engine/run/diagnosis_estimate.hpp"
-#include "engine/run/workflows.hpp"
+#include "engine/experiment/diagnosis_estimate.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "engine/data/recorded_tables.hpp"
+#include "engine/experiment/progress_update.hpp"
 #include "engine/python/job_source.hpp"
-#include "engine/run/progress_update.hpp"
 
 namespace torquescope {
 

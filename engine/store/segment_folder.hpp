@@ -62,7 +62,7 @@ class SegmentNames {
 // finished segments, sorted by name, to be read while the folder is open; none when there is no folder
 std::vector<FilePlace> segments_in(OpenFolder const& folder);
 
-// how many parts of a diagnosis's twins are there (engine/run/twin_folder.hpp)
+// how many parts of a diagnosis's twins are there (engine/workflows/twin_folder.hpp)
 std::size_t twin_parts_in(std::filesystem::path const& folder);
 
 // once the result is whole: the segments and twins of this job, what killed processes left of unfinished ones, and the

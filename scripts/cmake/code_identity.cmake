@@ -31,7 +31,7 @@ if(GIT_FOUND AND EXISTS ${SOURCE}/.git)
 endif()
 
 set(code "// written by scripts/cmake/code_identity.cmake
-#include \"engine/run/code_identity.hpp\"
+#include \"engine/experiment/runs/code_identity.hpp\"
 
 namespace torquescope {
 char const* sources_sha256() { return \"${sources}\"; }

@@ -38,11 +38,11 @@ MUTATIONS = {
         ),
     ],
     # 2: no verification of segments
-    "run/saved_runs.cpp": [
+    "experiment/runs/saved_runs.cpp": [
         ("if (accept(file, request_)) file.verify();", "if (accept(file, request_) && !mutant(2)) file.verify();")
     ],
     # 3: acknowledged before fsync
-    "run/run_keeper.cpp": [
+    "experiment/runs/run_keeper.cpp": [
         (
             "    std::lock_guard const alone(hdf5_);\n",
             "    if (mutant(3) && setting_.safe) setting_.safe(runs_safe_ + ended);\n    std::lock_guard const "

@@ -1,9 +1,9 @@
-// Job texts: engine/job/, and what tables of options make of their sections.
+// Job texts: engine/experiment/job/, and what tables of options make of their sections.
 #include <string>
 
 #include "engine/data/recording_reader.hpp"
-#include "engine/job/job.hpp"
-#include "engine/job/job_options.hpp"
+#include "engine/experiment/job/job.hpp"
+#include "engine/experiment/job/job_options.hpp"
 #include "tests/fuzz/hostile_reader.hpp"
 
 namespace torquescope {

@@ -1,7 +1,7 @@
 // Writes a small segment, for seeds: two methods, one run that has ended and one that goes on.  make_segment FILE
 #include <numeric>
 
-#include "engine/run/segment_file.hpp"
+#include "engine/experiment/runs/segment_file.hpp"
 
 namespace torquescope {
 namespace {

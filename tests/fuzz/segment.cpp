@@ -1,4 +1,5 @@
-// Segments: engine/run/segment_file.cpp. Their parts are read without the proof of their digest, which no change
+// Segments: engine/experiment/runs/segment_file.cpp.
+// Their parts are read without the proof of their digest, which no change
 // survives: what a file says of itself may be wrong, but must not lead outside.
 #include <unistd.h>
 
@@ -7,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "engine/run/segment_file.hpp"
+#include "engine/experiment/runs/segment_file.hpp"
 #include "tests/fuzz/header_checksums.hpp"
 #include "tests/fuzz/hostile_reader.hpp"
 #include "tests/fuzz/seal.hpp"

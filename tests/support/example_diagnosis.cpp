@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/account/sentences.hpp"
 #include "engine/effects/effect.hpp"
-#include "engine/words/sentences.hpp"
 
 namespace torquescope::example {
 

@@ -6,7 +6,7 @@
 //            axes, the table 34 candidates, the trace three laps of 8 s at 100 Hz
 // Bits       the same in every call: formulas, no random numbers
 
-#include "engine/verdict/diagnosis.hpp"
+#include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope::example {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/run/diagnosis_writer.hpp"
 #include "engine/store/result_writer.hpp"
+#include "engine/workflows/results/diagnosis_writer.hpp"
 #include "support/example_diagnosis.hpp"
 
 namespace torquescope::example {

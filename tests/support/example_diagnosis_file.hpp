@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/verdict/diagnosis.hpp"
+#include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope::example {
 

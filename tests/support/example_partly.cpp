@@ -1,6 +1,6 @@
 // The invented joint where two effects explain a part, and something along its position is left.
 
-#include "engine/words/sentences.hpp"
+#include "engine/account/sentences.hpp"
 #include "support/example_diagnosis.hpp"
 
 namespace torquescope::example {

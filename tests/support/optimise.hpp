@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/optim/optimiser.hpp"
-#include "engine/optim/stop_rules.hpp"
+#include "engine/fit/optim/optimiser.hpp"
+#include "engine/fit/optim/stop_rules.hpp"
 
 namespace torquescope::testing {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace torquescope::test {

@@ -10,9 +10,9 @@
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/notes.hpp"
 #include "engine/app/terminal/plain_text.hpp"
-#include "engine/run/foreign_file.hpp"
-#include "engine/run/servo_workflow.hpp"
-#include "engine/run/workflows.hpp"
+#include "engine/experiment/foreign_file.hpp"
+#include "engine/workflows/servo_workflow.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

@@ -10,12 +10,12 @@
 
 #include "engine/app/commands/chosen_command.hpp"
 #include "engine/app/session.hpp"
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 
 void add_run(CLI::App& app, ChosenCommand& chosen);
-// `diagnose` does the work: the program's is diagnose() of run/workflows.hpp, tests bring their own
+// `diagnose` does the work: the program's is diagnose() of workflows/workflows.hpp, tests bring their own
 using DiagnoseWork = std::function<Diagnosis(Experiment const&, DiagnoseRequest const&, ProgressSink const&)>;
 void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose);
 void add_replay(CLI::App& app, ChosenCommand& chosen);

@@ -14,8 +14,8 @@
 #include "engine/app/result/robot_text.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
-#include "engine/run/catalogue.hpp"
-#include "engine/run/robot_description.hpp"
+#include "engine/experiment/catalogue.hpp"
+#include "engine/experiment/robot_description.hpp"
 
 namespace torquescope {
 

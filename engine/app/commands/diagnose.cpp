@@ -25,11 +25,11 @@
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/base/heap.hpp"
 #include "engine/base/quantity_text.hpp"
-#include "engine/run/diagnosis_estimate.hpp"
-#include "engine/run/diagnosis_json.hpp"
-#include "engine/run/diagnosis_reader.hpp"
-#include "engine/run/foreign_file.hpp"
-#include "engine/run/servo_workflow.hpp"
+#include "engine/experiment/diagnosis_estimate.hpp"
+#include "engine/experiment/foreign_file.hpp"
+#include "engine/workflows/results/diagnosis_json.hpp"
+#include "engine/workflows/results/diagnosis_reader.hpp"
+#include "engine/workflows/servo_workflow.hpp"
 
 namespace torquescope {
 

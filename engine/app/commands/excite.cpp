@@ -11,7 +11,7 @@
 #include "engine/app/commands/command.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/base/parallel.hpp"
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

@@ -12,11 +12,11 @@
 #include "engine/app/commands/command.hpp"
 #include "engine/app/result/result_summary.hpp"
 #include "engine/app/result/result_tables.hpp"
-#include "engine/run/arm_export.hpp"
-#include "engine/run/diagnosis_reader.hpp"
-#include "engine/run/model_code.hpp"
-#include "engine/run/servo_code.hpp"
-#include "engine/run/servo_reader.hpp"
+#include "engine/workflows/results/arm_export.hpp"
+#include "engine/workflows/results/diagnosis_reader.hpp"
+#include "engine/workflows/results/model_code.hpp"
+#include "engine/workflows/results/servo_code.hpp"
+#include "engine/workflows/results/servo_reader.hpp"
 
 namespace torquescope {
 

@@ -13,9 +13,9 @@
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/terminal/plain_text.hpp"
-#include "engine/run/arm_draft.hpp"
-#include "engine/run/job_draft.hpp"
-#include "engine/run/joint_choice.hpp"
+#include "engine/workflows/drafts/arm_draft.hpp"
+#include "engine/workflows/drafts/job_draft.hpp"
+#include "engine/workflows/drafts/joint_choice.hpp"
 
 namespace torquescope {
 

@@ -10,7 +10,7 @@
 #include "engine/app/result/catalogue_json.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
-#include "engine/run/catalogue.hpp"
+#include "engine/experiment/catalogue.hpp"
 
 namespace torquescope {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/app/session.hpp"
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

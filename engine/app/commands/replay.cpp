@@ -10,8 +10,8 @@
 #include "engine/app/commands/notes.hpp"
 #include "engine/app/result/replay_text.hpp"
 #include "engine/app/terminal/plain_text.hpp"
-#include "engine/run/replay_workflow.hpp"
 #include "engine/store/temp_file.hpp"
+#include "engine/workflows/replay_workflow.hpp"
 
 namespace torquescope {
 

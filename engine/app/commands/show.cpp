@@ -15,8 +15,8 @@
 #include "engine/app/result/verification_text.hpp"
 #include "engine/base/confined.hpp"
 #include "engine/base/packed_bytes.hpp"
-#include "engine/run/diagnosis_reader.hpp"
-#include "engine/run/servo_reader.hpp"
+#include "engine/workflows/results/diagnosis_reader.hpp"
+#include "engine/workflows/results/servo_reader.hpp"
 
 namespace torquescope {
 

@@ -8,7 +8,7 @@
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/terminal/plain_text.hpp"
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

@@ -15,8 +15,8 @@
 #include "engine/app/terminal/table.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/quantity_text.hpp"
-#include "engine/run/diagnosis_reader.hpp"
-#include "engine/run/diagnosis_standing.hpp"
+#include "engine/workflows/diagnosis_standing.hpp"
+#include "engine/workflows/results/diagnosis_reader.hpp"
 
 namespace torquescope {
 

@@ -18,8 +18,8 @@
 #include "engine/app/result/finished_result.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/interrupted_call.hpp"
-#include "engine/job/job.hpp"
-#include "engine/run/disk_room.hpp"
+#include "engine/experiment/job/job.hpp"
+#include "engine/experiment/runs/disk_room.hpp"
 #include "engine/store/result_files.hpp"
 #include "engine/store/temp_file.hpp"
 

@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/catalogue.hpp"
+#include "engine/experiment/catalogue.hpp"
 
 namespace torquescope {
 

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/account/job_lines.hpp"
+#include "engine/account/verdict_lines.hpp"
 #include "engine/app/result/candidate_text.hpp"
 #include "engine/app/result/map_text.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 #include "engine/base/quantity_text.hpp"
-#include "engine/words/job_lines.hpp"
-#include "engine/words/verdict_lines.hpp"
 
 namespace torquescope {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "engine/app/terminal/colour.hpp"
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
 

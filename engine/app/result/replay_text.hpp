@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/app/terminal/colour.hpp"
-#include "engine/run/replay_workflow.hpp"
+#include "engine/workflows/replay_workflow.hpp"
 
 namespace torquescope {
 

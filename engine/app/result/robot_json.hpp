@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "engine/run/robot_description.hpp"
+#include "engine/experiment/robot_description.hpp"
 
 namespace torquescope {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/app/terminal/colour.hpp"
-#include "engine/run/robot_description.hpp"
+#include "engine/experiment/robot_description.hpp"
 
 namespace torquescope {
 

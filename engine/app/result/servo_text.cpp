@@ -7,7 +7,7 @@
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 #include "engine/base/quantity_text.hpp"
-#include "engine/run/servo_words.hpp"
+#include "engine/workflows/servo_words.hpp"
 
 namespace torquescope {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/app/terminal/colour.hpp"
-#include "engine/run/servo_report.hpp"
+#include "engine/workflows/servo_report.hpp"
 
 namespace torquescope {
 

@@ -15,7 +15,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/run/progress_update.hpp"
+#include "engine/experiment/progress_update.hpp"
 
 namespace torquescope {
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from .errors import UsageError
 
-INLINE = ("columns", "clocks", "encoding")  # tables that are values (engine/job/job.hpp)
+INLINE = ("columns", "clocks", "encoding")  # tables that are values (engine/experiment/job/job.hpp)
 
 
 def job_text(job):

@@ -1,7 +1,7 @@
 """Wald tests with errors that allow for noise that repeats itself, Benjamini-Hochberg at the job's q.
 
 Errors    Newey-West (Bartlett weights), lags by Andrews' rule with first-order autoregressions of the scores: the lags
-          and the weights of the engine's own standard errors (engine/problem/hac.hpp)
+          and the weights of the engine's own standard errors (engine/fit/problem/hac.hpp)
 Test      W / df against F(df, n - R - df); df counts the linear parameters and the shapes that were searched
 Tuning    none: q and the largest number of names are the job's, the bandwidth is Andrews'
 Source    Newey, West 1987; Andrews 1991 eq. 6.2, 6.4; Benjamini, Hochberg 1995

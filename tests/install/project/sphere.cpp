@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "engine/optim/optimiser.hpp"
+#include "engine/fit/optim/optimiser.hpp"
 
 int main() {
   using namespace torquescope;

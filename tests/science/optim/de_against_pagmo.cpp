@@ -13,10 +13,10 @@
 #include <pagmo/problem.hpp>
 #include <pagmo/types.hpp>
 
-#include "engine/optim/bound_repair.hpp"
-#include "engine/optim/crossover.hpp"
-#include "engine/optim/generational_search.hpp"
-#include "engine/optim/mutation.hpp"
+#include "engine/fit/optim/bound_repair.hpp"
+#include "engine/fit/optim/crossover.hpp"
+#include "engine/fit/optim/generational_search.hpp"
+#include "engine/fit/optim/mutation.hpp"
 #include "run_medians.hpp"
 
 namespace torquescope::testing {

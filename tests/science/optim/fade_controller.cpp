@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/optim/fuzzy_controller.hpp"
+#include "engine/fit/optim/fuzzy_controller.hpp"
 
 namespace torquescope {
 namespace {

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "engine/base/random_stream.hpp"
-#include "engine/optim/objective.hpp"
+#include "engine/fit/optim/objective.hpp"
 
 namespace torquescope::testing {
 

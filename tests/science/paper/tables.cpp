@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "engine/effects/joint_form.hpp"
-#include "engine/problem/squared_error_floor.hpp"
+#include "engine/fit/problem/squared_error_floor.hpp"
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "engine/search/shape_grid.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "engine/infer/search/shape_grid.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 namespace torquescope::test {
 namespace {

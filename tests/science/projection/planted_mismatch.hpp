@@ -17,8 +17,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/search/candidate_columns.hpp"
-#include "engine/search/model_stage.hpp"
+#include "engine/infer/search/candidate_columns.hpp"
+#include "engine/infer/search/model_stage.hpp"
 
 namespace torquescope::test {
 

@@ -13,9 +13,9 @@
 #include <cstdint>
 #include <string>
 
-#include "engine/optim/objective.hpp"
-#include "engine/search/shape_grid.hpp"
-#include "engine/search/shape_refinement.hpp"
+#include "engine/fit/optim/objective.hpp"
+#include "engine/infer/search/shape_grid.hpp"
+#include "engine/infer/search/shape_refinement.hpp"
 #include "science/projection/planted_mismatch.hpp"
 
 namespace torquescope::test {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/workflows.hpp"
 #include "engine/store/result_reader.hpp"
+#include "engine/workflows/workflows.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/workflows.hpp"
 #include "engine/store/result_reader.hpp"
+#include "engine/workflows/workflows.hpp"
 #include "support/recordings_folder.hpp"
 #include "support/temporary_folder.hpp"
 

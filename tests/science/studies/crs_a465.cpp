@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "engine/run/workflows.hpp"
 #include "engine/store/result_reader.hpp"
+#include "engine/workflows/workflows.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/run/workflows.hpp"
 #include "engine/store/result_reader.hpp"
+#include "engine/workflows/workflows.hpp"
 #include "support/recordings_folder.hpp"
 #include "support/temporary_folder.hpp"
 

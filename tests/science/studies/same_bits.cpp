@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "engine/run/workflows.hpp"
+#include "engine/workflows/workflows.hpp"
 #include "kernels/dispatch.hpp"
 #include "support/simulated_job.hpp"
 

@@ -16,9 +16,9 @@ Problem problem_of(Thrown thrown) {
 }
 
 TEST(Failure, OfAPromiseNamesThePlaceInTheSourceTreeOnly) {
-  Problem const problem = problem_of(BrokenPromise("n > 0", "/home/somebody/engine/problem/projection.cpp", 88));
+  Problem const problem = problem_of(BrokenPromise("n > 0", "/home/somebody/engine/fit/problem/projection.cpp", 88));
   EXPECT_EQ(problem.code, ExitCode::internal);
-  EXPECT_EQ(problem.what, "broken promise in engine/problem/projection.cpp:88 (our fault): n > 0");
+  EXPECT_EQ(problem.what, "broken promise in engine/fit/problem/projection.cpp:88 (our fault): n > 0");
   EXPECT_EQ(problem.help, "report it with the job file and this line; results so far are safe");
 }
 

@@ -1,6 +1,6 @@
 // What other joints and a wrong robot file do to a joint: against the inverse dynamics of an arm that really has it.
 
-#include "engine/arms/arm_laws.hpp"
+#include "engine/diagnose/arms/arm_laws.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A law with a shape beside an arm: planted at one joint, found by the fit of the whole arm.
 
-#include "engine/arms/law_shapes.hpp"
+#include "engine/diagnose/arms/law_shapes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Which directions a joint may correct, against counting by hand, and that its own terms keep their meaning.
 
-#include "engine/arms/rigid_corrections.hpp"
+#include "engine/diagnose/arms/rigid_corrections.hpp"
 
 #include <gtest/gtest.h>
 

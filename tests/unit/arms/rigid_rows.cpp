@@ -1,13 +1,13 @@
 // An arm told apart into joints: what is left to each is its own equation of motion, by an inverse dynamics that the
 // columns of the fit share nothing with.
 
-#include "engine/arms/rigid_rows.hpp"
+#include "engine/diagnose/arms/rigid_rows.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "engine/pipeline/held_torque.hpp"
+#include "engine/infer/pipeline/held_torque.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
 #include "unit/robot/example_arms.hpp"
 

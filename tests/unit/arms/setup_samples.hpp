@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "engine/arms/arm_setup.hpp"
+#include "engine/diagnose/arms/arm_setup.hpp"
 
 namespace torquescope::test {
 

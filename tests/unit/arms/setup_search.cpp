@@ -1,6 +1,6 @@
 // What is wrong with an arm's set-up: every kind is found with its joints and its number, and nothing on a sound arm.
 
-#include "engine/arms/setup_search.hpp"
+#include "engine/diagnose/arms/setup_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <future>
 #include <numbers>
 
-#include "engine/arms/link_change.hpp"
+#include "engine/diagnose/arms/link_change.hpp"
 #include "unit/arms/setup_samples.hpp"
 
 namespace torquescope {

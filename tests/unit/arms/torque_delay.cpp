@@ -1,14 +1,14 @@
 // Torques of an arm that come late: found at their joint, with their time, and only where they explain half.
 
-#include "engine/arms/torque_delay.hpp"
+#include "engine/diagnose/arms/torque_delay.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "engine/arms/filtered_arm.hpp"
-#include "engine/pipeline/arm_reversals.hpp"
+#include "engine/diagnose/arms/filtered_arm.hpp"
+#include "engine/infer/pipeline/arm_reversals.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
 #include "unit/arms/setup_samples.hpp"
 

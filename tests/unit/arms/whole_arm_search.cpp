@@ -1,6 +1,6 @@
 // Laws of a whole arm, concealed in recordings of arms whose inverse dynamics is the test's own sum of what they feel.
 
-#include "engine/arms/whole_arm_search.hpp"
+#include "engine/diagnose/arms/whole_arm_search.hpp"
 
 #include <gtest/gtest.h>
 

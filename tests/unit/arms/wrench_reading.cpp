@@ -1,6 +1,6 @@
 // The frame and the side of a wrench at the tip: those that were written, or others that fit the arm.
 
-#include "engine/arms/wrench_reading.hpp"
+#include "engine/diagnose/arms/wrench_reading.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "engine/data/excitation.hpp"
+#include "engine/data/health/make_recording.hpp"
 #include "engine/data/motion.hpp"
 #include "engine/data/recording_reader.hpp"
-#include "engine/health/make_recording.hpp"
 #include "support/decompositions.hpp"
 #include "support/recordings_folder.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/base/random_stream.hpp"
-#include "engine/health/make_recording.hpp"
+#include "engine/data/health/make_recording.hpp"
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "support/decompositions.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -10,7 +10,7 @@
 
 #include "engine/base/random_stream.hpp"
 #include "engine/diagnose/joint_diagnosis.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/base/random_stream.hpp"
-#include "engine/problem/arm_model.hpp"
-#include "engine/problem/recorded_arm.hpp"
+#include "engine/fit/problem/arm_model.hpp"
+#include "engine/fit/problem/recorded_arm.hpp"
 
 namespace torquescope::test {
 

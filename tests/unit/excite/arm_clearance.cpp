@@ -1,4 +1,4 @@
-#include "engine/excite/arm_clearance.hpp"
+#include "engine/fit/excite/arm_clearance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Rows of an arm for the tests of excite: base parameters with drives, viscous and Coulomb friction of every joint.
 
-#include "engine/excite/motion_quality.hpp"
+#include "engine/fit/excite/motion_quality.hpp"
 #include "engine/robot/base_parameters.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
 #include "unit/robot/example_arms.hpp"

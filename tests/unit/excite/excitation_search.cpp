@@ -1,11 +1,11 @@
-#include "engine/excite/excitation_search.hpp"
+#include "engine/fit/excite/excitation_search.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/optim/optimiser.hpp"
+#include "engine/fit/optim/optimiser.hpp"
 #include "unit/excite/arm_rows.hpp"
 
 namespace torquescope {

@@ -1,4 +1,4 @@
-#include "engine/excite/fourier_motion.hpp"
+#include "engine/fit/excite/fourier_motion.hpp"
 
 #include <gtest/gtest.h>
 

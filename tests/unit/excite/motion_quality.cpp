@@ -1,11 +1,11 @@
-#include "engine/excite/motion_quality.hpp"
+#include "engine/fit/excite/motion_quality.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/base/dense_solvers.hpp"
-#include "engine/excite/motion_space.hpp"
+#include "engine/fit/excite/motion_space.hpp"
 #include "support/decompositions.hpp"
 #include "unit/excite/arm_rows.hpp"
 

@@ -1,4 +1,4 @@
-#include "engine/excite/motion_space.hpp"
+#include "engine/fit/excite/motion_space.hpp"
 
 #include <gtest/gtest.h>
 

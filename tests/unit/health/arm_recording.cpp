@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/data/health/finding_text.hpp"
+#include "engine/data/health/joined_findings.hpp"
+#include "engine/data/health/make_arm_recording.hpp"
+#include "engine/data/health/make_recording.hpp"
 #include "engine/data/split_recording.hpp"
-#include "engine/health/finding_text.hpp"
-#include "engine/health/joined_findings.hpp"
-#include "engine/health/make_arm_recording.hpp"
-#include "engine/health/make_recording.hpp"
 #include "sample_recording.hpp"
 
 namespace torquescope {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
+#include "engine/data/health/finding_text.hpp"
+#include "engine/data/health/make_recording.hpp"
 #include "engine/data/own_clocks.hpp"
-#include "engine/health/finding_text.hpp"
-#include "engine/health/make_recording.hpp"
 #include "unit/health/sample_recording.hpp"
 
 namespace torquescope {

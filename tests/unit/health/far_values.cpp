@@ -1,6 +1,6 @@
 // Values that are no data are found wherever they lie, and no value of a sound signal is taken for one.
 
-#include "engine/health/far_values.hpp"
+#include "engine/data/health/far_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/health/lone_rows.hpp"
+#include "engine/data/health/lone_rows.hpp"
 
 namespace torquescope {
 namespace far_values_test {

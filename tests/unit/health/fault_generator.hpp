@@ -1,6 +1,6 @@
 #pragma once
 // Faults of every kind put into drawn recordings: other rates, lengths, ranges, encoders, noises, motions and joints
-// for each number. Nobody has looked at them; no level of engine/health was set by them.
+// for each number. Nobody has looked at them; no level of engine/data/health was set by them.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/data/finding.hpp"
-#include "engine/health/examination.hpp"
+#include "engine/data/health/examination.hpp"
 #include "unit/health/sample_recording.hpp"
 
 namespace torquescope::health_test {

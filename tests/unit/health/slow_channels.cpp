@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
+#include "engine/data/health/make_recording.hpp"
 #include "engine/data/motion.hpp"
-#include "engine/health/make_recording.hpp"
 #include "unit/health/sample_recording.hpp"
 
 namespace torquescope {

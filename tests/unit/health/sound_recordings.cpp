@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/health/finding_text.hpp"
-#include "engine/health/make_recording.hpp"
+#include "engine/data/health/finding_text.hpp"
+#include "engine/data/health/make_recording.hpp"
 #include "unit/health/sample_recording.hpp"
 
 namespace torquescope {

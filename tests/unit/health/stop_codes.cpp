@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/health/finding_text.hpp"
-#include "engine/health/make_recording.hpp"
-#include "engine/health/register_coding.hpp"
+#include "engine/data/health/finding_text.hpp"
+#include "engine/data/health/make_recording.hpp"
+#include "engine/data/health/register_coding.hpp"
 #include "unit/health/sample_recording.hpp"
 
 namespace torquescope {

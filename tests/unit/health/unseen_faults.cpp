@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "engine/base/error.hpp"
-#include "engine/health/finding_text.hpp"
-#include "engine/health/make_recording.hpp"
+#include "engine/data/health/finding_text.hpp"
+#include "engine/data/health/make_recording.hpp"
 #include "unit/health/fault_generator.hpp"
 
 namespace torquescope {

@@ -1,6 +1,6 @@
 // A source slower than its log is told from a coarse encoder, whatever its period, its phase and its jitter.
 
-#include "engine/health/value_runs.hpp"
+#include "engine/data/health/value_runs.hpp"
 
 #include <gtest/gtest.h>
 

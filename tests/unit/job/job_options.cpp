@@ -1,8 +1,8 @@
-#include "engine/job/job_options.hpp"
+#include "engine/experiment/job/job_options.hpp"
 
 #include <gtest/gtest.h>
 
-#include "engine/job/job.hpp"
+#include "engine/experiment/job/job.hpp"
 
 namespace torquescope {
 namespace job_options_test {

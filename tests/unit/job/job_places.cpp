@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/digest.hpp"
-#include "engine/job/job.hpp"
+#include "engine/experiment/job/job.hpp"
 
 namespace torquescope {
 namespace job_places_test {

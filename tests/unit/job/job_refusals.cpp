@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "engine/job/job.hpp"
+#include "engine/experiment/job/job.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {

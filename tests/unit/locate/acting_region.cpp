@@ -1,6 +1,6 @@
 // Where an effect acts is said as the interval, or the two, that match its acting samples best among all there are.
 
-#include "engine/locate/acting_region.hpp"
+#include "engine/infer/locate/acting_region.hpp"
 
 #include <gtest/gtest.h>
 

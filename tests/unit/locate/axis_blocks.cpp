@@ -1,7 +1,7 @@
 // Blocks along an effect's axis: where a law of another form is, an interval over blocks of time is too narrow, over
 // levels it is not.
 
-#include "engine/locate/axis_blocks.hpp"
+#include "engine/infer/locate/axis_blocks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-#include "engine/statistics/block_jackknife.hpp"
+#include "engine/fit/statistics/block_jackknife.hpp"
 
 using torquescope::axis_blocks;
 using torquescope::AxisBlocks;

@@ -1,10 +1,10 @@
-#include "engine/locate/cell_means.hpp"
+#include "engine/infer/locate/cell_means.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "unit/twin/synthetic_rows.hpp"
+#include "unit/replicates/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace cell_means_test {

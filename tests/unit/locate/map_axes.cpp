@@ -1,4 +1,4 @@
-#include "engine/locate/map_axes.hpp"
+#include "engine/infer/locate/map_axes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "unit/twin/synthetic_rows.hpp"
+#include "unit/replicates/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace map_axes_test {

@@ -1,4 +1,4 @@
-#include "engine/locate/map_regions.hpp"
+#include "engine/infer/locate/map_regions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/locate/mismatch_map.hpp"
+#include "engine/infer/locate/mismatch_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/locate/map_axes.hpp"
-#include "unit/twin/synthetic_rows.hpp"
+#include "engine/infer/locate/map_axes.hpp"
+#include "unit/replicates/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace mismatch_map_test {

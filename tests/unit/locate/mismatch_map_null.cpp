@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "engine/locate/map_axes.hpp"
-#include "engine/locate/mismatch_map.hpp"
-#include "unit/twin/synthetic_rows.hpp"
+#include "engine/infer/locate/map_axes.hpp"
+#include "engine/infer/locate/mismatch_map.hpp"
+#include "unit/replicates/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace mismatch_map_null_test {

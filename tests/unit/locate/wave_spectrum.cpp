@@ -1,4 +1,4 @@
-#include "engine/locate/wave_spectrum.hpp"
+#include "engine/infer/locate/wave_spectrum.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/locate/map_axes.hpp"
-#include "engine/locate/wave_cells.hpp"
+#include "engine/infer/locate/map_axes.hpp"
+#include "engine/infer/locate/wave_cells.hpp"
 #include "support/decompositions.hpp"
-#include "unit/twin/synthetic_rows.hpp"
+#include "unit/replicates/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace wave_spectrum_test {

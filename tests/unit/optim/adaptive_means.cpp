@@ -1,4 +1,4 @@
-#include "engine/optim/adaptive_means.hpp"
+#include "engine/fit/optim/adaptive_means.hpp"
 
 #include <gtest/gtest.h>
 

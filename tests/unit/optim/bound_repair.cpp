@@ -1,4 +1,4 @@
-#include "engine/optim/bound_repair.hpp"
+#include "engine/fit/optim/bound_repair.hpp"
 
 #include <gtest/gtest.h>
 

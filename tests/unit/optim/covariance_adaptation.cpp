@@ -1,4 +1,4 @@
-#include "engine/optim/covariance_adaptation.hpp"
+#include "engine/fit/optim/covariance_adaptation.hpp"
 
 #include <gtest/gtest.h>
 

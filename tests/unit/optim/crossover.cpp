@@ -1,4 +1,4 @@
-#include "engine/optim/crossover.hpp"
+#include "engine/fit/optim/crossover.hpp"
 
 #include <gtest/gtest.h>
 

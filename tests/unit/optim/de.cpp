@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/optim/trial_vector.hpp"
+#include "engine/fit/optim/trial_vector.hpp"
 #include "support/optimise.hpp"
 
 namespace torquescope {

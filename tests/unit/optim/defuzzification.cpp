@@ -1,4 +1,4 @@
-#include "engine/optim/defuzzification.hpp"
+#include "engine/fit/optim/defuzzification.hpp"
 
 #include <gtest/gtest.h>
 

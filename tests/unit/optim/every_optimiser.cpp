@@ -8,8 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "engine/optim/generational_search.hpp"
-#include "engine/optim/selection.hpp"
+#include "engine/fit/optim/generational_search.hpp"
+#include "engine/fit/optim/selection.hpp"
 #include "support/optimise.hpp"
 
 namespace torquescope {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/optim/fuzzy_controller.hpp"
+#include "engine/fit/optim/fuzzy_controller.hpp"
 #include "support/optimise.hpp"
 
 namespace torquescope {

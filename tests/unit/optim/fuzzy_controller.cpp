@@ -1,4 +1,4 @@
-#include "engine/optim/fuzzy_controller.hpp"
+#include "engine/fit/optim/fuzzy_controller.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/optim/fuzzy_curves.hpp"
+#include "engine/fit/optim/fuzzy_curves.hpp"
 
 #include <gtest/gtest.h>
 

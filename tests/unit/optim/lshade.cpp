@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/optim/success_history.hpp"
+#include "engine/fit/optim/success_history.hpp"
 #include "support/current_to_pbest.hpp"
 
 namespace torquescope {

@@ -1,4 +1,4 @@
-#include "engine/optim/mamdani.hpp"
+#include "engine/fit/optim/mamdani.hpp"
 
 #include <gtest/gtest.h>
 

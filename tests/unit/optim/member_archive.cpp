@@ -1,4 +1,4 @@
-#include "engine/optim/member_archive.hpp"
+#include "engine/fit/optim/member_archive.hpp"
 
 #include <gtest/gtest.h>
 

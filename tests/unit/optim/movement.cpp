@@ -1,4 +1,4 @@
-#include "engine/optim/movement.hpp"
+#include "engine/fit/optim/movement.hpp"
 
 #include <gtest/gtest.h>
 

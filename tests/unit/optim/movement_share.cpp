@@ -1,4 +1,4 @@
-#include "engine/optim/movement_share.hpp"
+#include "engine/fit/optim/movement_share.hpp"
 
 #include <gtest/gtest.h>
 

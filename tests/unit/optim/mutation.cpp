@@ -1,4 +1,4 @@
-#include "engine/optim/mutation.hpp"
+#include "engine/fit/optim/mutation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "engine/optim/population.hpp"
+#include "engine/fit/optim/population.hpp"
 
 namespace torquescope {
 namespace mutation_test {

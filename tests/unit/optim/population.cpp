@@ -1,4 +1,4 @@
-#include "engine/optim/population.hpp"
+#include "engine/fit/optim/population.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/optim/restart_plan.hpp"
+#include "engine/fit/optim/restart_plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/optim/selection.hpp"
+#include "engine/fit/optim/selection.hpp"
 
 #include <gtest/gtest.h>
 

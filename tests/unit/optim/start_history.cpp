@@ -1,4 +1,4 @@
-#include "engine/optim/start_history.hpp"
+#include "engine/fit/optim/start_history.hpp"
 
 #include <gtest/gtest.h>
 

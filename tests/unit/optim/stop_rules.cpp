@@ -1,4 +1,4 @@
-#include "engine/optim/stop_rules.hpp"
+#include "engine/fit/optim/stop_rules.hpp"
 
 #include <gtest/gtest.h>
 

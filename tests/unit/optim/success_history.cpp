@@ -1,4 +1,4 @@
-#include "engine/optim/success_history.hpp"
+#include "engine/fit/optim/success_history.hpp"
 
 #include <gtest/gtest.h>
 

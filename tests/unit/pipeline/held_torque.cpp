@@ -1,6 +1,6 @@
 // A torque that holds between samples, put beside the motion of its samples.
 
-#include "engine/pipeline/held_torque.hpp"
+#include "engine/infer/pipeline/held_torque.hpp"
 
 #include <gtest/gtest.h>
 

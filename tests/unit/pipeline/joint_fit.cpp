@@ -1,7 +1,7 @@
 // Whatever the torque is, the fitted joint is one: where least squares would give it less inertia or friction than none
 // it is held, and the other parameters are those of least squares beside that.
 
-#include "engine/pipeline/joint_fit.hpp"
+#include "engine/infer/pipeline/joint_fit.hpp"
 
 #include <gtest/gtest.h>
 

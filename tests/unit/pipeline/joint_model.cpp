@@ -1,7 +1,7 @@
 // The model of a diagnosis is its baseline and its effects side by side, and simulates what it fits: a twin of the
 // model gives its parameters back, and is fitted like a joint that a simulator of another kind made.
 
-#include "engine/pipeline/joint_model.hpp"
+#include "engine/infer/pipeline/joint_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/pipeline/recorded_loop.hpp"
-#include "engine/twin/twin_batch.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "engine/infer/pipeline/recorded_loop.hpp"
+#include "engine/infer/replicates/twin_batch.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -1,10 +1,10 @@
 // What a mask leaves out is counted in time and in energy, and the error over all rows is told beside it.
 
-#include "engine/pipeline/left_out_rows.hpp"
+#include "engine/infer/pipeline/left_out_rows.hpp"
 
 #include <gtest/gtest.h>
 
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -1,13 +1,13 @@
 // A motion that cannot tell some laws closes these, and only when nothing is found does it take the blame.
 
-#include "engine/pipeline/motion_limits.hpp"
+#include "engine/infer/pipeline/motion_limits.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "engine/pipeline/shared_constants.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "engine/infer/pipeline/shared_constants.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

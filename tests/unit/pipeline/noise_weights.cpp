@@ -1,7 +1,7 @@
 // Friction that wanders by itself counts for little, what it cannot imitate in full; against the inverse root of the
 // covariance.
 
-#include "engine/pipeline/noise_weights.hpp"
+#include "engine/infer/pipeline/noise_weights.hpp"
 
 #include <gtest/gtest.h>
 

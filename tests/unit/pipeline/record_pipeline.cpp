@@ -1,7 +1,7 @@
 // What moves a part with an inertia of its own is not cut where the joint's motion is: a load behind a gap, integrated
 // here in small steps by nothing of the engine's, is told from a position that shakes beyond the cut-off.
 
-#include "engine/pipeline/record_pipeline.hpp"
+#include "engine/infer/pipeline/record_pipeline.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -1,7 +1,7 @@
 // The loop of a real recording, where it is at hand (tests/support/recordings_folder.hpp); whose limit a limit of the
 // torque is.
 
-#include "engine/pipeline/recorded_loop.hpp"
+#include "engine/infer/pipeline/recorded_loop.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "engine/data/health/make_recording.hpp"
 #include "engine/data/recording_reader.hpp"
-#include "engine/health/make_recording.hpp"
-#include "engine/pipeline/needed_torque.hpp"
+#include "engine/infer/pipeline/needed_torque.hpp"
 #include "support/recordings_folder.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 

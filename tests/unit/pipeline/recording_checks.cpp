@@ -1,6 +1,6 @@
 // A recording that cannot tell is refused with a finding and a way out; a good one passes.
 
-#include "engine/pipeline/recording_checks.hpp"
+#include "engine/infer/pipeline/recording_checks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Which samples count as moving.
 
-#include "engine/pipeline/reversal_mask.hpp"
+#include "engine/infer/pipeline/reversal_mask.hpp"
 
 #include <gtest/gtest.h>
 

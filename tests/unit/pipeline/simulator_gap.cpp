@@ -1,14 +1,14 @@
 // A recording against the user's simulator: wrong parameters apart from missing physics, and what both hold cancels.
 
-#include "engine/pipeline/simulator_gap.hpp"
+#include "engine/infer/pipeline/simulator_gap.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "engine/pipeline/held_torque.hpp"
+#include "engine/infer/pipeline/held_torque.hpp"
 #include "support/decompositions.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

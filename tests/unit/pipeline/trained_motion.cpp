@@ -1,6 +1,6 @@
 // Which samples lie outside of the motion that a fit has seen.
 
-#include "engine/pipeline/trained_motion.hpp"
+#include "engine/infer/pipeline/trained_motion.hpp"
 
 #include <gtest/gtest.h>
 

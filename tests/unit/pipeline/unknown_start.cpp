@@ -1,6 +1,6 @@
 // Where what contacts remember of the time before a record ends.
 
-#include "engine/pipeline/unknown_start.hpp"
+#include "engine/infer/pipeline/unknown_start.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/base/random_stream.hpp"
-#include "engine/problem/recorded_rows.hpp"
+#include "engine/fit/problem/recorded_rows.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
 #include "engine/robot/robot_registry.hpp"
 

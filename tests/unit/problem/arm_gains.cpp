@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/base/error.hpp"
-#include "engine/problem/arm_regression.hpp"
-#include "engine/problem/estimator.hpp"
+#include "engine/fit/problem/arm_regression.hpp"
+#include "engine/fit/problem/estimator.hpp"
 #include "unit/problem/arm_data.hpp"
 
 namespace torquescope {

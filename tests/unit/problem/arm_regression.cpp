@@ -1,15 +1,15 @@
 // Rows of a simulated arm: its torques, the pooled weighted fit against stacked least squares, noise levels, intervals.
 
-#include "engine/problem/arm_regression.hpp"
+#include "engine/fit/problem/arm_regression.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/problem/arm_accuracy.hpp"
-#include "engine/problem/estimator.hpp"
-#include "engine/problem/filtered_grams.hpp"
+#include "engine/fit/problem/arm_accuracy.hpp"
+#include "engine/fit/problem/estimator.hpp"
+#include "engine/fit/problem/filtered_grams.hpp"
 #include "support/decompositions.hpp"
 #include "unit/problem/arm_data.hpp"
 

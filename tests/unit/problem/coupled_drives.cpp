@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "engine/problem/arm_regression.hpp"
-#include "engine/problem/estimator.hpp"
+#include "engine/fit/problem/arm_regression.hpp"
+#include "engine/fit/problem/estimator.hpp"
 #include "unit/problem/arm_data.hpp"
 
 namespace torquescope {

@@ -1,6 +1,6 @@
 // Errors as independent parts have the covariance they came from, and the largest of them are kept.
 
-#include "engine/problem/covariance_root.hpp"
+#include "engine/fit/problem/covariance_root.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/problem/fitness_choice.hpp"
+#include "engine/fit/problem/fitness_choice.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "engine/problem/hac.hpp"
+#include "engine/fit/problem/hac.hpp"
 
 #include <gmock/gmock.h>
 

@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random_stream.hpp"
-#include "engine/problem/estimator.hpp"
+#include "engine/fit/problem/estimator.hpp"
 
 namespace torquescope::test {
 

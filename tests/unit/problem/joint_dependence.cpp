@@ -1,6 +1,6 @@
 // Rows of an arm that are left out: those of the joints that need what is missing, and no others.
 
-#include "engine/problem/joint_dependence.hpp"
+#include "engine/fit/problem/joint_dependence.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // Laws of ols and wls, and of the words that every estimator owes its user.
 
-#include "engine/problem/least_squares.hpp"
+#include "engine/fit/problem/least_squares.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // The seed's regressor is found to have two columns that are constant by direction of motion, and sorting changes
 // rounding only.
-#include "engine/problem/levelled_recording.hpp"
+#include "engine/fit/problem/levelled_recording.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/problem/objective_options.hpp"
+#include "engine/fit/problem/objective_options.hpp"
 
 #include <gtest/gtest.h>
 

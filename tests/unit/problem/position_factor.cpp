@@ -1,6 +1,6 @@
 // A position in another unit than rad is told by the torque of gravity, and by nothing else.
 
-#include "engine/problem/position_factor.hpp"
+#include "engine/fit/problem/position_factor.hpp"
 
 #include <gtest/gtest.h>
 

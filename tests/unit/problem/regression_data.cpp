@@ -1,4 +1,4 @@
-#include "engine/problem/regression_data.hpp"
+#include "engine/fit/problem/regression_data.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "engine/problem/regressor_health.hpp"
+#include "engine/fit/problem/regressor_health.hpp"
 
 #include <gmock/gmock.h>
 

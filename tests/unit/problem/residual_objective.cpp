@@ -1,4 +1,4 @@
-#include "engine/problem/residual_objective.hpp"
+#include "engine/fit/problem/residual_objective.hpp"
 
 #include <gmock/gmock.h>
 

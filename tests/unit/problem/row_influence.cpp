@@ -1,13 +1,13 @@
 // One wrong sample moves a parameter as a fit without it says; no row of noise does, also of correlated noise.
 
-#include "engine/problem/row_influence.hpp"
+#include "engine/fit/problem/row_influence.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "engine/problem/least_squares.hpp"
+#include "engine/fit/problem/least_squares.hpp"
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {

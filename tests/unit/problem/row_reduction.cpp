@@ -1,6 +1,6 @@
 // Least squares from blocks of rows: as exact as from all rows at once, for every size of block.
 
-#include "engine/problem/row_reduction.hpp"
+#include "engine/fit/problem/row_reduction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A fit of rows that do not tell all parameters apart: it predicts as every fit does, and is shared out evenly.
 
-#include "engine/problem/shortest_fit.hpp"
+#include "engine/fit/problem/shortest_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // what float32 promises: a fitness near that of float64, its error said beforehand, refused where noise does not hide
 // it
-#include "engine/problem/single_precision.hpp"
+#include "engine/fit/problem/single_precision.hpp"
 
 #include <gmock/gmock.h>
 
-#include "engine/problem/fitness_choice.hpp"
+#include "engine/fit/problem/fitness_choice.hpp"
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {

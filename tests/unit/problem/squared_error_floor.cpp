@@ -1,4 +1,4 @@
-#include "engine/problem/squared_error_floor.hpp"
+#include "engine/fit/problem/squared_error_floor.hpp"
 
 #include <gtest/gtest.h>
 

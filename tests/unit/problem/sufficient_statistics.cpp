@@ -1,6 +1,6 @@
 // An error from statistics is the error from every sample, along weak directions too; where it would not be, it is
 // refused.
-#include "engine/problem/sufficient_statistics.hpp"
+#include "engine/fit/problem/sufficient_statistics.hpp"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@
 #include <set>
 
 #include "engine/base/dense_solvers.hpp"
-#include "engine/problem/statistics_objective.hpp"
+#include "engine/fit/problem/statistics_objective.hpp"
 #include "kernels/dispatch.hpp"
 #include "unit/problem/joint_data.hpp"
 

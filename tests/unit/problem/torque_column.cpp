@@ -7,9 +7,9 @@
 #include <cmath>
 #include <functional>
 
-#include "engine/problem/command_limit.hpp"
-#include "engine/problem/computed_torque.hpp"
-#include "engine/problem/torque_zero.hpp"
+#include "engine/fit/problem/command_limit.hpp"
+#include "engine/fit/problem/computed_torque.hpp"
+#include "engine/fit/problem/torque_zero.hpp"
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {

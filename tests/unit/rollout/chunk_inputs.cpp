@@ -1,7 +1,7 @@
 // What enters a chunk of ticks: each lane sees the reference by its own delay, the other channels are those of the
 // sample.
 
-#include "engine/rollout/chunk_inputs.hpp"
+#include "engine/simulate/rollout/chunk_inputs.hpp"
 
 #include <gtest/gtest.h>
 

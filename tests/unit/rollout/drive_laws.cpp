@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "engine/rollout/drive_law.hpp"
+#include "engine/simulate/rollout/drive_law.hpp"
 #include "unit/rollout/servos.hpp"
 
 using namespace torquescope;

@@ -1,6 +1,6 @@
 // Shapes begin where they explain most: the order of a wave among hundreds, one wave after the other.
 
-#include "engine/rollout/effect_starts.hpp"
+#include "engine/simulate/rollout/effect_starts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A residual is worth as many squares as the variance of its mean square says.
 
-#include "engine/rollout/effective_samples.hpp"
+#include "engine/simulate/rollout/effective_samples.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/rollout/rollout_residuals.hpp"
+#include "engine/simulate/rollout/rollout_residuals.hpp"
 #include "kernels/dispatch.hpp"
 #include "unit/rollout/servos.hpp"
 

@@ -1,6 +1,6 @@
 // First gains of a recording without noise are those of its loop; the loop's own answer is the recorded torque.
 
-#include "engine/rollout/loop_gains.hpp"
+#include "engine/simulate/rollout/loop_gains.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Every number of a loop does in the lanes what it does in a joint that is simulated by itself, a hundred steps a tick.
 
-#include "engine/rollout/loop_lanes.hpp"
+#include "engine/simulate/rollout/loop_lanes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // [loop]: what does not go together is refused where it stands, with help; the rest becomes the setting of a loop.
 
-#include "engine/rollout/loop_options.hpp"
+#include "engine/simulate/rollout/loop_options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

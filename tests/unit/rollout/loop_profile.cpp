@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/rollout/loop_lanes.hpp"
+#include "engine/simulate/rollout/loop_lanes.hpp"
 
 using namespace torquescope;
 

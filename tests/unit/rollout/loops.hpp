@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/rollout/loop_form.hpp"
-#include "engine/rollout/rollout.hpp"
+#include "engine/simulate/rollout/loop_form.hpp"
+#include "engine/simulate/rollout/rollout.hpp"
 #include "unit/rollout/plain_loop.hpp"
 
 namespace torquescope::test {

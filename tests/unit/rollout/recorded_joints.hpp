@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/base/random_stream.hpp"
-#include "engine/rollout/loop_gains.hpp"
-#include "engine/rollout/rollout_fit.hpp"
-#include "engine/rollout/rollout_model.hpp"
+#include "engine/simulate/rollout/loop_gains.hpp"
+#include "engine/simulate/rollout/rollout_fit.hpp"
+#include "engine/simulate/rollout/rollout_model.hpp"
 #include "unit/rollout/loops.hpp"
 
 namespace torquescope::test {

@@ -1,6 +1,6 @@
 // A replay's numbers are those of a pocket calculator on all samples that are in, and of none that was left out.
 
-#include "engine/rollout/replay.hpp"
+#include "engine/simulate/rollout/replay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Levenberg-Marquardt on rollouts finds joints that another simulator recorded, in every loop, and says how well.
 
-#include "engine/rollout/rollout_fit.hpp"
+#include "engine/simulate/rollout/rollout_fit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

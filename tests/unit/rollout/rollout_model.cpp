@@ -1,6 +1,6 @@
 // A vector of parameters is a joint in its loop; what could not be one is no trial, and its sums are infinite.
 
-#include "engine/rollout/rollout_model.hpp"
+#include "engine/simulate/rollout/rollout_model.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/rollout/rollout.hpp"
+#include "engine/simulate/rollout/rollout.hpp"
 #include "unit/rollout/loops.hpp"
 
 using namespace torquescope;

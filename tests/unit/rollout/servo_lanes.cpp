@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/rollout/loop_lanes.hpp"
+#include "engine/simulate/rollout/loop_lanes.hpp"
 #include "unit/rollout/servos.hpp"
 
 using namespace torquescope;

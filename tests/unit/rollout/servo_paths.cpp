@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/rollout/rollout_residuals.hpp"
+#include "engine/simulate/rollout/rollout_residuals.hpp"
 #include "unit/rollout/servos.hpp"
 
 using namespace torquescope;

@@ -1,6 +1,6 @@
 // A recording as rollouts follow it: runs between gaps, windows without a reference, ticks of a faster controller.
 
-#include "engine/rollout/track.hpp"
+#include "engine/simulate/rollout/track.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/rollout/rollout_residuals.hpp"
+#include "engine/simulate/rollout/rollout_residuals.hpp"
 #include "unit/rollout/loops.hpp"
 
 using namespace torquescope;

@@ -1,6 +1,6 @@
 // Every candidate that is not named says why, by what became of it in the search.
 
-#include "engine/search/candidate_table.hpp"
+#include "engine/infer/search/candidate_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

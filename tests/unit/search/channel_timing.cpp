@@ -1,14 +1,14 @@
 // A torque channel that was read beside its row is put back in time, whichever way and however far.
 
-#include "engine/search/channel_timing.hpp"
+#include "engine/infer/search/channel_timing.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "engine/pipeline/held_torque.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "engine/infer/pipeline/held_torque.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 namespace torquescope {
 namespace channel_timing_test {

@@ -1,7 +1,7 @@
 // What a law leaves beyond noise may hide among its own columns as well, and then moves their coefficients so far and
 // no further.
 
-#include "engine/search/law_discrepancy.hpp"
+#include "engine/infer/search/law_discrepancy.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // A stage's parameters are those of the joint also where processing takes more from an effect than there is of it.
 
-#include "engine/search/model_stage.hpp"
+#include "engine/infer/search/model_stage.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

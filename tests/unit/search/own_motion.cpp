@@ -2,7 +2,7 @@
 // the recording's own motion tells it; and a soft loop that rings because its current comes late. Both are integrated
 // here, in small steps, by nothing of the engine's.
 
-#include "engine/search/own_motion.hpp"
+#include "engine/infer/search/own_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "engine/base/random_stream.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

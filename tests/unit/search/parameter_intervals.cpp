@@ -1,15 +1,15 @@
 // Intervals hold the truth of a right law, grow where a law leaves something beyond noise, and end where a parameter
 // does.
 
-#include "engine/search/parameter_intervals.hpp"
+#include "engine/infer/search/parameter_intervals.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "engine/search/law_discrepancy.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "engine/infer/search/law_discrepancy.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -1,14 +1,14 @@
 // A parameter that ends where it could not go further is no finding: the law is none of the catalogue. Bounds that are
 // laws themselves are.
 
-#include "engine/search/reached_bound.hpp"
+#include "engine/infer/search/reached_bound.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -1,16 +1,16 @@
 // A catalogue is scanned on fewer samples than are recorded: its columns are those of every sample, nearly.
 
-#include "engine/search/scan_motion.hpp"
+#include "engine/infer/search/scan_motion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "engine/effects/effect.hpp"
-#include "engine/search/candidate_columns.hpp"
-#include "engine/search/model_stage.hpp"
-#include "engine/search/shape_grid.hpp"
-#include "unit/twin/clean_records.hpp"
+#include "engine/infer/search/candidate_columns.hpp"
+#include "engine/infer/search/model_stage.hpp"
+#include "engine/infer/search/shape_grid.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 

@@ -1,7 +1,7 @@
 // The grid on which a shape is tried: bounds belong to it, the unit scale can be undone, and no wave falls between two
 // points.
 
-#include "engine/search/shape_grid.hpp"
+#include "engine/infer/search/shape_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Weights of another recording's rows: those of training where it is the same recording, its own where it is longer.
 
-#include "engine/search/weights_elsewhere.hpp"
+#include "engine/infer/search/weights_elsewhere.hpp"
 
 #include <gtest/gtest.h>
 
-#include "unit/twin/clean_records.hpp"
+#include "unit/replicates/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -1,7 +1,7 @@
 // The jackknife over blocks: as large as chance where the law is right, larger where it is not, silent on what happens
 // once.
 
-#include "engine/statistics/block_jackknife.hpp"
+#include "engine/fit/statistics/block_jackknife.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What is left out of the fit judges it: an effect that is there helps in blocks it was not fitted to, one that is not
 // does not, and an effect that lives in one block alone is refused without a blow-up.
 
-#include "engine/statistics/blocked_cv.hpp"
+#include "engine/fit/statistics/blocked_cv.hpp"
 
 #include <gtest/gtest.h>
 

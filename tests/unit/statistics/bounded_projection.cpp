@@ -1,7 +1,7 @@
 // The energy a group of columns explains is the minimum over all parameters of the right sign, found here another way:
 // coordinate descent on nuisance and group together, which needs no projection and no enumeration.
 
-#include "engine/statistics/bounded_projection.hpp"
+#include "engine/fit/statistics/bounded_projection.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tails of the chi-squared distribution against printed tables (Abramowitz, Stegun 1964, table 26.8).
 
-#include "engine/statistics/chi_squared.hpp"
+#include "engine/fit/statistics/chi_squared.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/statistics/essential_parameters.hpp"
+#include "engine/fit/statistics/essential_parameters.hpp"
 
 #include <gtest/gtest.h>
 

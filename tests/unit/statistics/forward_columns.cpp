@@ -1,13 +1,13 @@
 // A choice of columns: against an exhaustive search where that is the same, and on rows that it was not made on.
 
-#include "engine/statistics/forward_columns.hpp"
+#include "engine/fit/statistics/forward_columns.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/base/random_stream.hpp"
-#include "engine/statistics/blocked_cv.hpp"
+#include "engine/fit/statistics/blocked_cv.hpp"
 #include "support/decompositions.hpp"
 
 namespace torquescope {

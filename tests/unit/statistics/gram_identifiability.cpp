@@ -1,4 +1,4 @@
-#include "engine/statistics/gram_identifiability.hpp"
+#include "engine/fit/statistics/gram_identifiability.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // When a held-out error is clearly lower: by a paired test over blocks, whatever share it falls by.
 
-#include "engine/statistics/held_out_gain.hpp"
+#include "engine/fit/statistics/held_out_gain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "engine/statistics/student_t.hpp"
+#include "engine/fit/statistics/student_t.hpp"
 
 using torquescope::Blocks;
 using torquescope::held_out_blocks;

@@ -1,7 +1,7 @@
 // An instant's interval reaches as far as the fit does not notice: over plateaus, to jumps, to the bounds, and on a
 // parabola it is the tangent's.
 
-#include "engine/statistics/profiled_interval.hpp"
+#include "engine/fit/statistics/profiled_interval.hpp"
 
 #include <gtest/gtest.h>
 

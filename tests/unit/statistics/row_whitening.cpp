@@ -1,6 +1,6 @@
 // Noise of a known colour becomes white of the promised size, stretch by stretch, and nothing is enlarged.
 
-#include "engine/statistics/row_whitening.hpp"
+#include "engine/fit/statistics/row_whitening.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Least squares whose coefficients may not leave their bounds.
 
-#include "engine/statistics/scaled_solution.hpp"
+#include "engine/fit/statistics/scaled_solution.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/statistics/twin_null.hpp"
+#include "engine/fit/statistics/twin_null.hpp"
 
 #include <gtest/gtest.h>
 

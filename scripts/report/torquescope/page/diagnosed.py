@@ -72,7 +72,7 @@ def figure_name(study, joint, base):
 
 
 def which_joint(joint):
-    """As the verdict's sentences call it (engine/words/name_list.hpp)."""
+    """As the verdict's sentences call it (engine/account/name_list.hpp)."""
     return f"the joint of {joint.name}" if joint.name else f"joint {joint.joint}"
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from . import quantities as q, words_of_rollouts
 
 ARRIVED = 1e-3  # of the MSE: a search this close has the optimum to three digits
-CLOSE_CORRELATION = 0.95  # worth a remark (engine/problem/regressor_health.cpp)
+CLOSE_CORRELATION = 0.95  # worth a remark (engine/fit/problem/regressor_health.cpp)
 Z95 = 1.959964  # normal quantile of the stored ci95
 
 

@@ -203,7 +203,7 @@ def fit_answer(study, joint):
 
 
 def _floor_words(error, floor):
-    """Validation, as the verdict's sentence has it (engine/words/error_words.hpp)."""
+    """Validation, as the verdict's sentence has it (engine/account/error_words.hpp)."""
     if not math.isfinite(floor):
         return ""
     if diagnosed.is_below_floor(error, floor):

@@ -1,4 +1,4 @@
-"""The records of a diagnosis: those of engine/verdict/diagnosis.hpp under the same names, as plain Python.
+"""The records of a diagnosis: those of engine/infer/verdict/diagnosis.hpp under the same names, as plain Python.
 
 Made by    read_diagnosis.py, which shows how to come by one
 Shapes     one array entry per cell of a map row, per sample of a trace; lists in the order of the file

@@ -1,0 +1,43 @@
+#pragma once
+// What a diagnosis of an arm says in one paragraph: which joints lack what, and the error over all joints.
+//
+// Threads    pure functions
+
+#include <string>
+#include <vector>
+
+#include "engine/infer/verdict/diagnosis.hpp"
+
+namespace torquescope {
+
+// "Named at joint 2 (load dependent friction) and joint 3 (stribeck); unexplained at joint 1; nothing missing at joints
+// 4, 5 and 6. Unseen relerr over all joints 4.5 % to 2.1 %."
+std::string arm_reason_sentence(Diagnosis const& diagnosis);
+
+// "From 9.0 s of monday.csv on all joints feel a payload of the last link, picked up or put down (payload_mass 1.2 kg):
+// on rows left out relerr over all joints falls from 12 % to 1.3 %."; recording: "" where it acts everywhere
+struct WholeArmFacts {
+  std::string recording{};
+  double from_s = 0.0, until_s = 0.0;              // until: infinite where it acts to the end
+  double before = 0.0, after = 0.0;                // relerr on rows left out
+  double unseen_before = 0.0, unseen_after = 0.0;  // 0: it acts in no unseen recording
+  // of an event: where it acts in unseen recordings
+  struct There {
+    std::string recording{};
+    double from_s = 0.0, until_s = 0.0;
+  };
+  std::vector<There> unseen{};
+};
+std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& facts);
+
+// "tuesday.csv has too few rows of this joint moving one way to judge it."
+std::string too_few_rows_sentence(std::vector<std::string> const& recordings);
+
+// "The joint compliance of the whole arm explains 82 % of this joint's mismatch; of what is left:"
+std::string explained_by_arm_sentence(std::string const& effect, double share);
+
+// "The masses that the rows of this joint tell are not those of the other joints: its relerr is 1.3 % with its own, and
+// 4.6 % with those that all share."
+std::string own_masses_sentence(double own_relerr, double shared_relerr);
+
+}  // namespace torquescope

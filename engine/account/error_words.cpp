@@ -1,0 +1,160 @@
+#include "engine/account/error_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/quantity_text.hpp"
+#include "engine/effects/effect_traits.hpp"
+#include "engine/infer/search/selection.hpp"
+
+namespace torquescope {
+namespace {
+
+// of an error in training and unseen, by the same model
+bool is_other_kind(double unseen, double train, double floor) {
+  constexpr double times = 3.0, points = 0.03;
+  double const expected = std::isfinite(floor) ? std::max(train, floor) : train;
+  return unseen > times * expected && unseen > expected + points;
+}
+
+// of the energy that a prediction at the floor would take away, where that is a quarter of it or more; the same as of
+// names that are refuted, which may stay where they move the prediction too little to be blamed
+bool keeps_little(double before, double after, double floor) {
+  constexpr double quarter = 0.25;
+  double const promised = before * before - floor * floor;
+  return promised >= quarter * before * before && before * before - after * after < quarter * promised;
+}
+
+// a torque channel before the motion
+bool comes_early(NamedEffect const& effect) {
+  return effect.acts_on == word(ActsOn::recorded_torque) && !effect.parameters.empty() &&
+         effect.parameters[0].unit == "s" && effect.parameters[0].value < 0.0;
+}
+
+std::ptrdiff_t n_asked(JointDiagnosis const& joint) {
+  return std::count_if(joint.candidates.begin(), joint.candidates.end(),
+                       [](Candidate const& one) { return one.decision != Decision::not_tested; });
+}
+
+constexpr double usual_p = 0.05;
+
+std::string omnibus_text(JointDiagnosis const& joint) {
+  return p_text(joint.omnibus_p, false, 1.0 / static_cast<double>(joint.twins + 1));
+}
+
+// of those without a name the candidate that is least by chance; null where all have one
+Candidate const* surest_refused(JointDiagnosis const& joint) {
+  Candidate const* surest = nullptr;
+  for (auto const& one : joint.candidates)
+    if (one.decision == Decision::rejected && (!surest || one.q < surest->q)) surest = &one;
+  return surest;
+}
+
+}  // namespace
+
+std::string floor_words(double relerr, double floor) {
+  if (!std::isfinite(floor)) return "";
+  constexpr double nearly = 1.02;
+  std::string const text = percent_text(floor);
+  if (relerr > nearly * floor) return ", floor " + text;
+  if (relerr >= floor / nearly) return ", at the floor (about " + text + ")";
+  return fmt::format(", at the floor (about {}: what simulated replicates leave on average)", text);
+}
+
+std::string left_out_clause(LeftOut const& left_out) {
+  if (!(left_out.time > 0.0) || !std::isfinite(left_out.energy)) return "";
+  std::string errors = percent_text(left_out.relerr);
+  if (std::isfinite(left_out.augmented_relerr) && left_out.augmented_relerr != left_out.relerr)
+    errors += " to " + percent_text(left_out.augmented_relerr);
+  return fmt::format(
+      "{} of the time with {} of the residual's energy, near reversals, at rest or outside the motion of training, is "
+      "left out of that; "
+      "with it the error is {}",
+      percent_text(left_out.time), percent_text(left_out.energy), errors);
+}
+
+std::string gain_sentence(JointDiagnosis const& joint) {
+  bool const unseen = std::isfinite(joint.validation_relerr) && std::isfinite(joint.augmented_validation_relerr);
+  double const before = unseen ? joint.validation_relerr : joint.cv_relerr;
+  double const after = unseen ? joint.augmented_validation_relerr : joint.augmented_cv_relerr;
+  if (!std::isfinite(before) || !std::isfinite(after)) return "";
+  std::string const text = fmt::format("{} error {} to {}", unseen ? "Validation" : "Cross-validated",
+                                       percent_text(before), percent_text(after));
+  std::string left_out = left_out_clause(unseen ? joint.validation_left_out : joint.train_left_out);
+  if (!left_out.empty() && !unseen) left_out += " in training";
+  return text + floor_words(after, joint.floor_relerr) + (left_out.empty() ? "" : "; " + left_out) + "." +
+         (unseen && keeps_little(before, after, joint.floor_relerr)
+              ? " That is less than a quarter of what replicates with these names promise: something else is missing "
+                "there."
+              : "");
+}
+
+std::string unseen_is_other_sentence(JointDiagnosis const& joint) {
+  double const floor = joint.floor_relerr;
+  if (!std::isfinite(joint.validation_relerr) || !is_other_kind(joint.validation_relerr, joint.train_relerr, floor))
+    return "";
+  double unseen = joint.validation_relerr, train = joint.train_relerr;
+  if (std::isfinite(joint.augmented_validation_relerr)) {
+    unseen = joint.augmented_validation_relerr;
+    train = joint.augmented_train_relerr;
+    if (!is_other_kind(unseen, train, floor)) return "";
+  }
+  return fmt::format(
+      "The validation recording holds something that the training recording does not show: error {} there, {} here.",
+      percent_text(unseen), percent_text(train));
+}
+
+std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const& change) {
+  std::string const what = change.goes_both_ways ? "Dry friction differs" : "Friction or the offset differs";
+  return fmt::format(
+      "{} between recordings: in {} it is {} {} than in training, and with that the error there would be "
+      "{} instead of {} (warm-up, or another load).",
+      what, change.recording, quantity_text(std::abs(change.level), joint.unit_torque),
+      change.level < 0.0 ? "less" : "more", percent_text(change.relerr_with), percent_text(change.relerr_before));
+}
+
+std::string way_out_of_a_fault(JointDiagnosis const& joint) {
+  std::string const mend = std::any_of(joint.effects.begin(), joint.effects.end(), comes_early)
+                               ? "correct the channel, or record the torque that the drive gives instead of its command"
+                               : "correct the channel, or record again";
+  return unseen_is_other_sentence(joint).empty() ? mend + "; the model itself needs nothing more" : mend;
+}
+
+std::string likeness_sentence(JointDiagnosis const& joint) {
+  if (joint.twins == 0) return fmt::format("Nothing is missing in the model of {}.", which_joint(joint));
+  std::string const p = omnibus_text(joint);
+  if (!(joint.omnibus_p < usual_p) || !std::isfinite(joint.mismatch_share))
+    return fmt::format("The residual of {} looks like that of {} simulated replicates ({}).", which_joint(joint),
+                       joint.twins, p);
+  std::string const larger = fmt::format(
+      "The residual of {} is larger than that of {} simulated replicates ({}), but only by {} of the torque",
+      which_joint(joint), joint.twins, p, percent_text(joint.mismatch_share));
+  if (joint.mismatch_share <= smallest_mismatch_share) return larger + ": too little to look for.";
+  return fmt::format(
+      "{}, which is not enough beside how much the replicates differ from one another; and no known effect of {} "
+      "explains "
+      "both "
+      "more than chance does and more than {} of the torque.",
+      larger, n_asked(joint), percent_text(smallest_mismatch_share));
+}
+
+std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits) {
+  Candidate const* refused = surest_refused(joint);
+  bool const is_for_one = joint.refutation.empty() && joint.omnibus_p >= usual_p && refused && refused->q < usual_p;
+  if (!is_for_one)
+    return fmt::format("The residual of {} is not what simulated replicates have ({}), but {}.", which_joint(joint),
+                       omnibus_text(joint), nothing_fits);
+  return fmt::format(
+      "The residual of {} is no larger than that of simulated replicates ({}), but {} explains more of it than of "
+      "theirs "
+      "(beyond chance). It gets no name: {}.",
+      which_joint(joint), omnibus_text(joint), refused->name, refused->reason);
+}
+
+std::string all_samples_sentence() {
+  return "All samples decide: rows that move one way explain nothing and hold less than half of what the model leaves.";
+}
+
+}  // namespace torquescope

@@ -1,0 +1,51 @@
+#pragma once
+// What the errors of a diagnosis say, as sentences: what naming brings, how near the floor, whether an unseen recording
+// is of another kind, and whether the residual is like that of clean twins.
+//
+// Unknown    a sentence whose numbers were not measured is ""
+// Wording    as sentences.hpp
+// Threads    pure functions
+
+#include <string>
+
+#include "engine/infer/verdict/diagnosis.hpp"
+
+namespace torquescope {
+
+// ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, for it is a mean over twins; what is below it has
+// some twins below it as well (unseen_floor.hpp), and is told what the floor is; "" where none is known
+std::string floor_words(double relerr, double floor);
+
+// What the mask leaves out, and the error with it: "71 % of the time with 98 % of the residual's energy, near reversals
+// and rests, is left out of that; with it the relerr is 38 % to 46 %"; "" where nothing is left out or it is not known
+std::string left_out_clause(LeftOut const& left_out);
+
+// "Validation error 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded. Where the
+// unseen error stays far above its floor whatever was named, that is said
+std::string gain_sentence(JointDiagnosis const& joint);
+
+// An unseen error beyond three times and three points above both the error in training and the floor of the unseen
+// recording, before and after alike: "The unseen recording holds something that the training recording does not show:
+// relerr 18.4 % there, 0.82 % here."; "" otherwise
+std::string unseen_is_other_sentence(JointDiagnosis const& joint);
+
+// "Dry friction differs between recordings: in tuesday.csv it is 0.35 N m less than in training, and with that the
+// relerr there would be 2.8 % instead of 5.0 % (warm-up, or another load)."
+std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const& change);
+
+// where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen
+// recording agrees
+std::string way_out_of_a_fault(JointDiagnosis const& joint);
+
+// Of a joint with a closed gate. Where p is small, what kept it closed is said: a mismatch below what matters, or one
+// that is within the twins' spread while no effect stands out
+std::string likeness_sentence(JointDiagnosis const& joint);
+
+// Of a joint with an open gate whose map shows nothing: what it is that twins do not have, the whole or what one
+// candidate would make. nothing_fits: a clause
+std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
+
+// why all samples decide although moving rows were asked
+std::string all_samples_sentence();
+
+}  // namespace torquescope

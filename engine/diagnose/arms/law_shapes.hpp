@@ -1,0 +1,29 @@
+#pragma once
+// The shapes of an arm's laws (HeldLaw) at which its training rows are explained best, as the diagnosis finds them.
+//
+// Method     variable projection: the linear parameters of the whole arm are solved for every shape that is tried; the
+//            grid of the diagnosis (search/shape_grid.hpp), then steps of Levenberg and Marquardt from its best point.
+//            A law whose shape is given begins there. Several laws in turn
+// Signs      a parameter that cannot be negative: a shape at which it would be explains nothing
+// Weights    rows are divided by the noise of their joint without the laws
+// Errors     those of the filters
+// Threads    free functions
+// Source     Golub, Pereyra 1973, doi:10.1137/0710036
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/arms/rigid_rows.hpp"
+
+namespace torquescope {
+
+// the model's laws with shapes, scales and baselines
+std::vector<HeldLaw> refined_laws(ArmModel const& model, std::span<RecordedArm const> train, ArmFilter const& filter);
+
+// "stribeck_speed_2" of the first shape of a law of joint 2
+std::string shape_name(HeldLaw const& law, std::size_t shape);
+// shapes that are no more than the end of what is plausible
+std::vector<std::size_t> shapes_at_bounds(HeldLaw const& law);
+
+}  // namespace torquescope

@@ -1,0 +1,266 @@
+#include "engine/diagnose/arms/whole_arm_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/diagnose/arms/own_instants.hpp"
+#include "engine/diagnose/arms/whole_arm_energies.hpp"
+#include "engine/fit/statistics/bounded_projection.hpp"
+#include "engine/fit/statistics/scaled_solution.hpp"
+
+namespace torquescope {
+namespace {
+
+Eigen::MatrixXd beside(Eigen::MatrixXd const& basis, Eigen::MatrixXd const& more) {
+  Eigen::MatrixXd both(basis.rows(), basis.cols() + more.cols());
+  both << basis, more;
+  return both;
+}
+
+class WholeArmWork {
+ public:
+  explicit WholeArmWork(WholeArmQuestion const& question) : question_(question) {
+    PlainArmFit const fit = fit_parameters(question.model, question.train, question.filter);
+    noise_ = fit.noise;
+    rows_ = whole_arm_rows(question.model, fit.parameters, noise_, question.train, question.filter, question.wanted,
+                           question.threads);
+    if (rows_.stretches.empty()) return;  // no joint moves
+    for (auto const& recording : question.unseen)
+      unseen_.push_back(whole_arm_rows(question.model, fit.parameters, noise_, std::span(&recording, 1),
+                                       question.filter, question.wanted, question.threads));
+    basis_ = orthonormal_basis(rows_.model);
+    residual_ = left_by(basis_);
+  }
+
+  WholeArmAnswer run() {
+    WholeArmAnswer answer;
+    for (std::uint32_t step = 0; !rows_.places.empty() && !rows_.stretches.empty(); ++step) {
+      auto scanned = scan_whole_arm_laws(rows_, basis_, residual_, {question_.seed, step, question_.threads});
+      if (scanned.empty()) break;
+      sort_strongest_first(scanned);
+      Eigen::VectorXd const left = left_out_of_stretches(rows_, basis_, residual_);
+      Judged best = judged(scanned.front(), left);
+      if (step == 0) {
+        answer.tried.push_back(best.found);
+        for (std::size_t i = 1; i < scanned.size(); ++i) answer.tried.push_back(judged(scanned[i], left).found);
+      }
+      if (best.found.reason != WholeArmReason::accepted) break;
+      best.found.alike = alike_to(best, scanned, left);
+      basis_ = beside(basis_, best.fit.directions);
+      residual_ = left_by(basis_);
+      accepted_.push_back(best.found);
+    }
+    answer.accepted = accepted_;
+    return answer;
+  }
+
+ private:
+  struct Judged {
+    FoundWholeArmLaw found{};
+    WholeArmFit fit{};
+    Eigen::VectorXd left{};
+  };
+
+  Eigen::VectorXd left_by(Eigen::MatrixXd const& basis) const {
+    return rows_.torque - basis * inner_products(basis, rows_.torque);
+  }
+
+  // stretches of the recordings it may act in
+  std::vector<ArmStretch> concerned(std::optional<ActingTime> const& time) const {
+    std::vector<ArmStretch> stretches;
+    for (ArmStretch const& one : rows_.stretches)
+      if (one.rows.size() > 0 && (!time || one.recording == time->recording)) stretches.push_back(one);
+    return stretches;
+  }
+
+  // z tells a law from chance, and what it gains tells laws apart: those beyond chance come by their gain
+  void sort_strongest_first(std::vector<ScannedLaw>& scanned) const {
+    std::stable_sort(scanned.begin(), scanned.end(), [](auto const& a, auto const& b) { return a.z > b.z; });
+    auto const chance = std::stable_partition(scanned.begin(), scanned.end(),
+                                              [&](ScannedLaw const& one) { return one.p <= question_.alpha; });
+    std::stable_sort(scanned.begin(), chance, [](auto const& a, auto const& b) { return a.gain > b.gain; });
+  }
+
+  static HeldOutGain gain_of(std::vector<ArmStretch> const& stretches, Eigen::VectorXd const& before,
+                             Eigen::VectorXd const& after, Blocks which) {
+    std::vector<HeldOutBlock> blocks;
+    for (ArmStretch const& one : stretches)
+      blocks.push_back({energy_on(before, one.rows), energy_on(after, one.rows), energy_on(before - after, one.rows),
+                        static_cast<double>(one.rows.size())});
+    return held_out_gain(blocks, which);
+  }
+
+  Judged judged(ScannedLaw const& scanned, Eigen::VectorXd const& left) const {
+    Judged one;
+    one.fit = fit_whole_arm_law(rows_, scanned, basis_, residual_);
+    one.left = left_out_of_stretches(rows_, beside(basis_, one.fit.directions), residual_);
+    FoundWholeArmLaw& found = one.found;
+    found.law = rows_.places[scanned.law];
+    found.time = one.fit.time;
+    found.values = one.fit.values;
+    found.errors = one.fit.errors;
+    found.is_told = one.fit.is_told;
+    found.z = scanned.z;
+    found.p = scanned.p;
+    auto const stretches = concerned(found.time);
+    std::size_t const joints = question_.model.joints();
+    Eigen::VectorXd const before = energies_on(rows_, left, stretches, joints),
+                          after = energies_on(rows_, one.left, stretches, joints);
+    Eigen::VectorXd noise = Eigen::VectorXd::Zero(before.size());
+    double plain_before = 0.0, plain_after = 0.0, plain_torque = 0.0;
+    for (ArmStretch const& stretch : stretches) {
+      noise += noise_energies(rows_, residual_, stretch, joints);
+      plain_before += plain_energy(rows_, noise_, left, stretch.rows);
+      plain_after += plain_energy(rows_, noise_, one.left, stretch.rows);
+      plain_torque += plain_energy(rows_, noise_, rows_.torque, stretch.rows);
+    }
+    found.explained = explained_share(before.sum(), after.sum(), noise.sum());
+    found.explained_at.resize(before.size());
+    for (Eigen::Index j = 0; j < before.size(); ++j)
+      found.explained_at[j] = explained_share(before[j], after[j], noise[j]);
+    found.before = std::sqrt(plain_before / plain_torque);
+    found.after = std::sqrt(plain_after / plain_torque);
+    look_at_unseen(found);
+    Blocks const which = found.time ? Blocks::where_it_acts : Blocks::alike;
+    found.reason = reason_of(found, gain_of(stretches, left, one.left, which), least_left_share(before, after));
+    return one;
+  }
+
+  WholeArmReason reason_of(FoundWholeArmLaw const& found, HeldOutGain const& held_out, double left_share) const {
+    if (found.p > question_.alpha) return WholeArmReason::chance;
+    if (!is_within_bounds(found)) return WholeArmReason::out_of_bounds;
+    if (held_out.change != HeldOutChange::lower) return WholeArmReason::not_held_out;
+    if (left_share > 1.0 - question_.levels.least_fall) return WholeArmReason::too_small;
+    if (found.explained <= most_of_it) return WholeArmReason::most_is_left;
+    if (found.unseen_after > found.unseen_before) return WholeArmReason::unseen;
+    return WholeArmReason::accepted;
+  }
+
+  // bounds of such laws are plain numbers
+  static bool is_within_bounds(FoundWholeArmLaw const& found) {
+    auto const& parameters = found.law.effect->parameters();
+    for (Eigen::Index i = 0; i < found.values.size(); ++i) {
+      EffectParameter const& one = parameters[static_cast<std::size_t>(i)];
+      if (found.values[i] < one.lower.factor || found.values[i] > one.upper.factor) return false;
+    }
+    return true;
+  }
+
+  // torque of accepted laws and of one more, on the rows of a recording: divided by noise as these are
+  static Eigen::VectorXd law_torque(WholeArmRows const& rows, FoundWholeArmLaw const& law) {
+    return rows.laws.middleCols(law.law.first, law.law.count) * law.values;
+  }
+
+  Eigen::VectorXd trained_torque(FoundWholeArmLaw const& law) const {
+    Eigen::VectorXd torque = law_torque(rows_, law);
+    if (!law.time) return torque;
+    for (ArmStretch const& stretch : rows_.stretches)
+      for (Eigen::Index i = stretch.rows.from; i < stretch.rows.to; ++i)
+        if (!law.time->holds(stretch.recording, rows_.rows[static_cast<std::size_t>(i)].time_s)) torque[i] = 0.0;
+    return torque;
+  }
+
+  // what unseen recordings leave, of all laws beside the model as fitted with them; the last law is yet to be placed
+  Eigen::VectorXd unseen_left(std::size_t which, std::vector<FoundWholeArmLaw> const& laws) const {
+    Eigen::VectorXd torque = rows_.torque;
+    for (auto const& law : laws) torque -= trained_torque(law);
+    Eigen::VectorXd const parameters = solve_scaled(rows_.model, torque);
+    WholeArmRows const& rows = unseen_[which];
+    Eigen::VectorXd left = rows.torque - rows.model * parameters;
+    for (auto const& law : laws)
+      if (which < law.unseen_times.size()) left -= placed_torque(rows, law, which);
+    return left;
+  }
+
+  static Eigen::VectorXd placed_torque(WholeArmRows const& rows, FoundWholeArmLaw const& law, std::size_t which) {
+    auto const& time = law.unseen_times[which];
+    Eigen::VectorXd torque = law_torque(rows, law);
+    for (Eigen::Index i = 0; i < torque.size(); ++i)
+      if (!time || !time->holds(which, rows.rows[static_cast<std::size_t>(i)].time_s)) torque[i] = 0.0;
+    return torque;
+  }
+
+  void look_at_unseen(FoundWholeArmLaw& found) const {
+    double before = 0.0, after = 0.0, torque = 0.0;
+    std::vector<FoundWholeArmLaw> with = accepted_;
+    with.push_back(found);
+    for (std::size_t k = 0; k < unseen_.size(); ++k) {
+      found.unseen_times.emplace_back();
+      if (unseen_[k].stretches.empty()) continue;
+      RowBlock const all{0, unseen_[k].torque.size()};
+      Eigen::VectorXd left = unseen_left(k, with), acting = law_torque(unseen_[k], found);
+      found.unseen_times.back() = ActingTime{k};
+      if (found.time) {
+        auto own = own_instants(unseen_[k], k, left, acting, question_.alpha,
+                                {question_.seed, static_cast<std::uint32_t>(k), question_.threads});
+        found.unseen_times.back() = own.time;
+        acting = std::move(own.torque);
+      }
+      left -= acting;
+      before += plain_energy(unseen_[k], noise_, unseen_left(k, accepted_), all);
+      after += plain_energy(unseen_[k], noise_, left, all);
+      torque += plain_energy(unseen_[k], noise_, unseen_[k].torque, all);
+    }
+    if (!(torque > 0.0)) return;
+    found.unseen_before = std::sqrt(before / torque);
+    found.unseen_after = std::sqrt(after / torque);
+  }
+
+  std::vector<Effect const*> alike_to(Judged const& best, std::vector<ScannedLaw> const& scanned,
+                                      Eigen::VectorXd const& left) const {
+    std::vector<Effect const*> alike;
+    auto const stretches = concerned(best.found.time);
+    for (ScannedLaw const& one : scanned) {
+      Effect const* effect = rows_.places[one.law].effect;
+      bool const is_known =
+          effect == best.found.law.effect || std::find(alike.begin(), alike.end(), effect) != alike.end();
+      if (is_known || one.p > question_.alpha) continue;
+      Judged const rival = judged(one, left);
+      bool const is_worse =
+          gain_of(stretches, rival.left, best.left, Blocks::where_it_acts).change == HeldOutChange::lower;
+      if (!is_worse) alike.push_back(effect);
+    }
+    return alike;
+  }
+
+  WholeArmQuestion const& question_;
+  Eigen::VectorXd noise_{};  // [N]
+  WholeArmRows rows_{};
+  std::vector<WholeArmRows> unseen_{};
+  Eigen::MatrixXd basis_{};     // of the model and of what was accepted
+  Eigen::VectorXd residual_{};  // what it leaves
+  std::vector<FoundWholeArmLaw> accepted_{};
+};
+
+}  // namespace
+
+WholeArmAnswer search_whole_arm(WholeArmQuestion const& question) {
+  bool const any = std::any_of(question.wanted.begin(), question.wanted.end(),
+                               [](Effect const* one) { return one->is_of_whole_arm(); });
+  return any ? WholeArmWork(question).run() : WholeArmAnswer{};
+}
+
+std::vector<Eigen::VectorXd> whole_arm_torques(WholeArmQuestion const& question,
+                                               std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of) {
+  PlainArmFit const fit = fit_parameters(question.model, question.train, question.filter);
+  auto const motion = motion_of(of.recording, question.filter);
+  auto const laws = whole_arm_laws(question.model, fit.parameters, motion, question.wanted, question.threads);
+  std::vector<Eigen::VectorXd> torques(motion.size(), Eigen::VectorXd::Zero(motion.front().q.size()));
+  for (FoundWholeArmLaw const& found : accepted) {
+    auto const law = std::find_if(laws.begin(), laws.end(), [&](WholeArmLaw const& one) {
+      return one.effect == found.law.effect && one.joint == found.law.joint;
+    });
+    auto const& time = of.is_unseen ? found.unseen_times[of.which] : found.time;
+    if (of.is_unseen && !time) continue;
+    for (std::size_t j = 0; j < torques.size(); ++j) {
+      Eigen::VectorXd torque = law->columns[j] * found.values;
+      for (Eigen::Index i = 0; i < torque.size() && time; ++i)
+        if (!time->holds(of.which, motion[j].time_s[i])) torque[i] = 0.0;
+      torques[j] += torque;
+    }
+  }
+  return torques;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,164 @@
+#include "engine/fit/statistics/bounded_projection.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
+#include "kernels/column_products.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double negligible = 1e-6;  // of a column's length
+
+// least squares of c on the chosen columns of r
+BoundedGain solve_subset(Eigen::MatrixXd const& r, Eigen::VectorXd const& c, std::vector<Eigen::Index> const& chosen) {
+  BoundedGain result{0.0, Eigen::VectorXd::Zero(r.cols())};
+  if (chosen.empty()) return result;
+  Eigen::MatrixXd const part = r(Eigen::all, chosen);
+  Eigen::VectorXd const theta = solve_shortest(part, c);
+  result.parameters(chosen) = theta;
+  result.gain = c.squaredNorm() - (c - part * theta).squaredNorm();
+  return result;
+}
+
+// columns that nuisance has been taken out of, and their lengths before
+OrthonormalGroup group_of(Eigen::Ref<Eigen::MatrixXd const> const& columns,
+                          Eigen::Ref<Eigen::RowVectorXd const> const& whole, std::vector<bool> non_negative) {
+  OrthonormalGroup group;
+  group.non_negative = std::move(non_negative);
+  // modified Gram-Schmidt with pivoting by what is left of each column
+  Eigen::MatrixXd left = columns;
+  group.q.resize(columns.rows(), 0);
+  for (Eigen::Index step = 0; step < columns.cols(); ++step) {
+    Eigen::Index best = -1;
+    double share = negligible;
+    for (Eigen::Index k = 0; k < left.cols(); ++k) {
+      double const now = whole[k] > 0.0 ? left.col(k).norm() / whole[k] : 0.0;
+      if (now > share) {
+        share = now;
+        best = k;
+      }
+    }
+    if (best < 0) break;
+    Eigen::VectorXd direction = left.col(best);
+    direction -= group.q * (group.q.transpose() * direction).eval();
+    direction.normalize();
+    group.q.conservativeResize(Eigen::NoChange, group.q.cols() + 1);
+    group.q.rightCols(1) = direction;
+    left -= direction * (direction.transpose() * left).eval();
+    left.col(best).setZero();
+  }
+  group.r = inner_products(group.q, columns);
+  // what is left of a dropped column is rounding: alone it must not count as a direction
+  for (Eigen::Index k = 0; k < columns.cols(); ++k)
+    if (columns.col(k).norm() <= negligible * whole[k]) group.r.col(k).setZero();
+  return group;
+}
+
+Eigen::MatrixXd gathered(Eigen::Ref<Eigen::MatrixXd const> const& from, std::span<RowBlock const> rows) {
+  Eigen::Index n = 0;
+  for (RowBlock const& block : rows) n += block.size();
+  Eigen::MatrixXd all(n, from.cols());
+  for (Eigen::Index k = 0; k < from.cols(); ++k) {
+    Eigen::Index at = 0;
+    for (RowBlock const& block : rows) {
+      all.col(k).segment(at, block.size()) = from.col(k).segment(block.from, block.size());
+      at += block.size();
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b) {
+  TORQUESCOPE_EXPECT(a.rows() == b.rows());
+  auto const columns = [](Eigen::Ref<Eigen::MatrixXd const> const& of) {
+    return kernels::Columns{of.data(), static_cast<std::size_t>(of.cols()), static_cast<std::size_t>(of.outerStride())};
+  };
+  Eigen::MatrixXd products(a.cols(), b.cols());
+  kernels::column_products(columns(a), columns(b), static_cast<std::size_t>(a.rows()), products.data());
+  return products;
+}
+
+Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b,
+                               std::span<RowBlock const> rows) {
+  if (rows.size() == 1)
+    return inner_products(a.middleRows(rows[0].from, rows[0].size()), b.middleRows(rows[0].from, rows[0].size()));
+  // short blocks one by one would be all sums of few rows
+  return inner_products(gathered(a, rows), gathered(b, rows));
+}
+
+std::vector<OrthonormalGroup> orthonormal_groups(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,
+                                                 std::vector<bool> const& non_negative) {
+  auto const width = static_cast<Eigen::Index>(non_negative.size());
+  TORQUESCOPE_EXPECT(columns.rows() == nuisance.rows() && columns.cols() % std::max<Eigen::Index>(width, 1) == 0);
+  Eigen::RowVectorXd const whole = columns.colwise().norm();
+  // twice is enough (Kahan): a column that is nearly nuisance loses its digits in the first pass
+  for (int pass = 0; pass < 2; ++pass) columns.noalias() -= nuisance * inner_products(nuisance, columns);
+  std::vector<OrthonormalGroup> groups;
+  for (Eigen::Index first = 0; first < columns.cols(); first += width)
+    groups.push_back(group_of(columns.middleCols(first, width), whole.segment(first, width), non_negative));
+  return groups;
+}
+
+OrthonormalGroup orthonormal_group(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,
+                                   std::vector<bool> const& non_negative) {
+  TORQUESCOPE_EXPECT(non_negative.size() == static_cast<std::size_t>(columns.cols()));
+  if (columns.cols() == 0) return {Eigen::MatrixXd(columns.rows(), 0), Eigen::MatrixXd(0, 0)};
+  return std::move(orthonormal_groups(std::move(columns), nuisance, non_negative).front());
+}
+
+BoundedGain bounded_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c) {
+  TORQUESCOPE_EXPECT(c.size() == group.rank());
+  std::vector<Eigen::Index> free, bounded;
+  for (Eigen::Index k = 0; k < group.r.cols(); ++k)
+    (group.non_negative[static_cast<std::size_t>(k)] ? bounded : free).push_back(k);
+  BoundedGain best{0.0, Eigen::VectorXd::Zero(group.r.cols())};
+  for (std::size_t subset = 0; subset < (std::size_t{1} << bounded.size()); ++subset) {
+    std::vector<Eigen::Index> chosen = free;
+    for (std::size_t k = 0; k < bounded.size(); ++k)
+      if ((subset >> k & 1U) != 0) chosen.push_back(bounded[k]);
+    BoundedGain const now = solve_subset(group.r, c, chosen);
+    bool allowed = true;
+    for (Eigen::Index k : bounded) allowed = allowed && now.parameters[k] >= 0.0;
+    if (allowed && now.gain > best.gain) best = now;
+  }
+  return best;
+}
+
+BoundedGain boxed_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c, Eigen::VectorXd const& lower,
+                       Eigen::VectorXd const& upper) {
+  BoundedGain free = bounded_gain(group, c);
+  if ((free.parameters.array() >= lower.array()).all() && (free.parameters.array() <= upper.array()).all()) return free;
+  Eigen::MatrixXd const h = group.r.transpose() * group.r;
+  Eigen::VectorXd const g = group.r.transpose() * c;
+  BoundedGain result{0.0, free.parameters.cwiseMax(lower).cwiseMin(upper)};
+  auto& theta = result.parameters;
+  constexpr int most_sweeps = 1000;
+  constexpr double settled = 1e-9;  // of the gain that the free parameters have
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double gained = 0.0;
+    for (Eigen::Index k = 0; k < theta.size(); ++k) {
+      if (h(k, k) <= 0.0) continue;
+      double const slope = g[k] - h.row(k).dot(theta);
+      double const next = std::clamp(theta[k] + slope / h(k, k), lower[k], upper[k]);
+      double const step = next - theta[k];
+      gained += 2.0 * slope * step - h(k, k) * step * step;
+      theta[k] = next;
+    }
+    if (gained <= settled * free.gain) break;
+  }
+  result.gain = 2.0 * g.dot(theta) - theta.dot(h * theta);
+  return result;
+}
+
+Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd const& columns) {
+  Eigen::MatrixXd const none(columns.rows(), 0);
+  return orthonormal_group(columns, none, std::vector<bool>(static_cast<std::size_t>(columns.cols()), false)).q;
+}
+
+}  // namespace torquescope

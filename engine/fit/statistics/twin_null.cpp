@@ -1,0 +1,84 @@
+#include "engine/fit/statistics/twin_null.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+
+namespace {
+
+// the share of the twins that the exponential tail is fitted to
+constexpr double tail_share = 0.25;
+
+struct Moments {
+  double mean = 0.0;
+  double variance = 0.0;  // n - 1
+};
+
+Moments moments_of(std::span<double const> values) {
+  auto const n = static_cast<double>(values.size());
+  Moments moments;
+  moments.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  for (double value : values) moments.variance += (value - moments.mean) * (value - moments.mean);
+  moments.variance /= n - 1.0;
+  return moments;
+}
+
+double ratio(double difference, double spread) {
+  if (spread > 0.0) return difference / spread;
+  // twins that all agree: any difference is infinitely unusual, none is not
+  return difference == 0.0 ? 0.0 : std::copysign(HUGE_VAL, difference);
+}
+
+}  // namespace
+
+double empirical_p(double data, std::span<double const> twins) {
+  TORQUESCOPE_EXPECT(!twins.empty());
+  auto const above = std::count_if(twins.begin(), twins.end(), [&](double twin) { return twin >= data; });
+  return (1.0 + static_cast<double>(above)) / (static_cast<double>(twins.size()) + 1.0);
+}
+
+double tail_p(double data, std::span<double const> twins) {
+  double const counted = empirical_p(data, twins);
+  if (twins.size() < fewest_twins_for_tail) return counted;
+  std::vector<double> sorted(twins.begin(), twins.end());
+  std::sort(sorted.begin(), sorted.end());
+  auto const tail_size = static_cast<std::size_t>(tail_share * static_cast<double>(sorted.size()));
+  double const threshold = sorted[sorted.size() - tail_size - 1];
+  // inside the twins the count is exact enough; beyond their tenth largest the fitted tail has less variance
+  if (data <= threshold || counted > 10.0 / static_cast<double>(sorted.size())) return counted;
+  double excess = 0.0;
+  for (std::size_t i = sorted.size() - tail_size; i < sorted.size(); ++i) excess += sorted[i] - threshold;
+  excess /= static_cast<double>(tail_size);
+  if (!(excess > 0.0)) return counted;
+  return static_cast<double>(tail_size) / static_cast<double>(sorted.size()) * std::exp(-(data - threshold) / excess);
+}
+
+double twin_z(double data, std::span<double const> twins) {
+  TORQUESCOPE_EXPECT(twins.size() >= 2);
+  Moments const moments = moments_of(twins);
+  double const one_more = 1.0 + 1.0 / static_cast<double>(twins.size());
+  return ratio(data - moments.mean, std::sqrt(moments.variance * one_more));
+}
+
+std::vector<double> standardised_twins(std::span<double const> twins) {
+  TORQUESCOPE_EXPECT(twins.size() >= 3);
+  auto const n = static_cast<double>(twins.size());
+  Moments const all = moments_of(twins);
+  double const sum_of_squares = all.variance * (n - 1.0);
+  std::vector<double> z;
+  z.reserve(twins.size());
+  for (double twin : twins) {
+    double const deviation = twin - all.mean;
+    // mean and variance of the others, without a second pass
+    double const difference = deviation * n / (n - 1.0);
+    double const variance = std::max(0.0, (sum_of_squares - deviation * deviation * n / (n - 1.0)) / (n - 2.0));
+    z.push_back(ratio(difference, std::sqrt(variance * (1.0 + 1.0 / (n - 1.0)))));
+  }
+  return z;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,58 @@
+#include "engine/infer/all_rows/decision_verdict.hpp"
+
+#include <algorithm>
+
+namespace torquescope {
+namespace {
+
+bool speaks_against(LawFacts const& law, DecisionNumbers const& numbers) {
+  return law.p <= numbers.alpha && law.refusal != Refusal::too_small && law.refusal != Refusal::smaller;
+}
+
+// a torque of which the error would fall by least_fall
+bool is_worth_naming(double size, double error, DecisionNumbers const& numbers) {
+  double const left = 1.0 - numbers.least_fall;
+  return size >= numbers.delta && size * size >= (1.0 - left * left) * error * error;
+}
+
+}  // namespace
+
+bool is_adequate(StepFacts const& step, DecisionNumbers const& numbers) {
+  bool const counts = is_worth_naming(step.correction.size, step.error, numbers);
+  if (counts && step.correction.p <= numbers.correction_alpha()) return false;
+  return std::none_of(step.laws.begin(), step.laws.end(),
+                      [&](LawFacts const& law) { return speaks_against(law, numbers); });
+}
+
+bool bears_laws_of_clock(StepFacts const& step, DecisionNumbers const& numbers) {
+  return std::none_of(step.laws.begin(), step.laws.end(),
+                      [&](LawFacts const& law) { return speaks_against(law, numbers); });
+}
+
+bool is_complete(std::span<StepFacts const> steps, DecisionNumbers const& numbers) {
+  if (steps.empty()) return false;
+  return std::all_of(steps.begin(), steps.end(), [&](StepFacts const& step) {
+    return is_adequate(step, numbers) && (step.is_of_clock || step.visible <= numbers.tolerance);
+  });
+}
+
+bool was_adequate(DecisionFacts const& facts, DecisionNumbers const& numbers) {
+  for (auto const& step : facts.steps) {
+    if (!is_adequate(step, numbers)) return false;
+    if (step.has_taken) break;
+  }
+  return true;
+}
+
+Verdict verdict_from(DecisionOutcome const& of) {
+  if (of.neighbours_predict) return Verdict::unexplained;
+  if (!of.has_names || !of.is_lower) {
+    if (!of.was_adequate) return Verdict::unexplained;
+    return of.can_tell_little ? Verdict::insufficient : Verdict::none;
+  }
+  if (!of.is_complete) return Verdict::partly;
+  if (of.all_on_channel) return Verdict::data_fault;
+  return of.has_class ? Verdict::one_of_class : Verdict::named;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,365 @@
+#include "engine/infer/all_rows/joint_decision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "engine/effects/carry_over.hpp"
+#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/infer/all_rows/decision_verdict.hpp"
+#include "engine/infer/all_rows/delay_decision.hpp"
+#include "engine/infer/all_rows/law_trial.hpp"
+#include "engine/infer/all_rows/replicate_gains.hpp"
+#include "engine/infer/all_rows/smooth_correction.hpp"
+#include "engine/infer/all_rows/sticking_shape.hpp"
+#include "engine/simulate/rollout/effective_samples.hpp"
+
+namespace torquescope {
+namespace {
+
+// the first so many
+std::vector<std::size_t> first_of(std::vector<std::size_t> order, std::size_t count) {
+  order.resize(std::min(count, order.size()));
+  return order;
+}
+
+FoldKind folds_of(Effect const& law) { return is_clock_bound(law) ? FoldKind::interleaved : FoldKind::whole; }
+
+class Search {
+ public:
+  explicit Search(DecisionQuestion const& question) : q_(question) { result_.rows = joint_strips(question); }
+
+  JointDecision run() && {
+    FittedModel const plain = fitted_model(result_.rows, q_.regressor, {}, nullptr, free_delay());
+    result_.baseline = fitted_with({}, *plain.fitted);
+    result_.final = fitted_with({}, *plain.fitted);
+    judged_ = errors_of(rows(), result_.final).judged();
+    note_rows();
+    while (has_room() && has_taken_one()) drop_useless();
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  JointStrips const& rows() const { return result_.rows; }
+  JointScales const& scales() const { return result_.baseline.model->reference().scales; }
+  DelayChoice free_delay() const { return {DelaySearch::everywhere, q_.numbers.longest_delay_s}; }
+  double shortest_way() const { return sticking_bounds(rows().training.front().resolution).most_length; }
+
+  void tell(char const* stage, std::size_t done, std::size_t total) const {
+    if (q_.progress) q_.progress(stage, done, total);
+  }
+
+  bool has_room() const { return accepted_.size() < q_.most_laws && result_.facts.steps.size() < 2 * q_.most_laws + 2; }
+
+  FittedModel fitted_with(std::vector<ShapedEffect> effects, FittedStrips const& sizes) const {
+    return fitted_model(rows(), q_.regressor, std::move(effects), &sizes, free_delay());
+  }
+
+  std::vector<ShapedEffect> effects_now() const {
+    std::vector<ShapedEffect> effects;
+    for (auto const& one : accepted_) effects.push_back({one.effect, one.shape});
+    return effects;
+  }
+
+  std::vector<ShapedEffect> effects_without(std::size_t law) const {
+    auto effects = effects_now();
+    effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(law));
+    return effects;
+  }
+
+  FittedModel fitted_without(std::size_t law) const { return fitted_with(effects_without(law), *result_.final.fitted); }
+
+  void note_rows() {
+    double quiet = 0.0, duration = 0.0, kept = 0.0;
+    for (auto const& strip : rows().training) {
+      quiet += strip.quiet_share() * strip.duration_s();
+      kept += strip.row_share() * strip.duration_s();
+      duration += strip.duration_s();
+    }
+    result_.facts.quiet_share = quiet / duration;
+    result_.facts.set_aside_share = std::max(0.0, 1.0 - kept / duration);
+    result_.facts.torque_rms = rows().torque_rms();
+  }
+
+  // laws of one kind that may be asked now; one that is no wave only once
+  std::vector<Effect const*> laws_to_ask(bool of_clock) const {
+    std::vector<Effect const*> laws;
+    for (auto const* law : q_.laws) {
+      bool const is_taken =
+          std::any_of(accepted_.begin(), accepted_.end(), [&](auto const& one) { return one.effect == law; });
+      if (is_clock_bound(*law) != of_clock || (is_taken && !law->is_wave()) || law->is_torque_timing()) continue;
+      laws.push_back(law);
+    }
+    return laws;
+  }
+
+  // laws of a clock come after those of the motion, which are asked again beside every new model
+  bool has_taken_one() {
+    result_.facts.last_steps = 0;
+    if (step(false)) return true;
+    auto const& steps = result_.facts.steps;
+    bool const is_borne = result_.facts.last_steps == 0 || bears_laws_of_clock(steps.back(), q_.numbers);
+    return is_borne && has_room() && step(true);
+  }
+
+  TrialModel trial_model(FittedModel const& fitted, std::vector<ShapedEffect> const& effects, Score const& score,
+                         double judged) const {
+    return {rows(), fitted, effects, score, scales(), judged};
+  }
+
+  // whether a law was taken
+  bool step(bool of_clock) {
+    FoldKind const kind = of_clock ? FoldKind::interleaved : FoldKind::whole;
+    auto questions = law_questions(laws_to_ask(of_clock), scales(), shortest_way());
+    if (questions.empty()) return false;
+    tell("search", 0, questions.size());
+    FittedStrips const& recording = *result_.final.fitted;
+    Score const score(recording.base(), recording.residual(), recording.guard());
+    auto const findings = scan_recording(questions, recording, score, kind, q_.threads);
+    auto const effects = effects_now();
+    TrialModel const beside = trial_model(result_.final, effects, score, judged_);
+    Eigen::VectorXd const gains = gains_of(findings);
+    auto tried = tried_laws(q_, beside, questions, findings, first_of(by_value(gains), q_.numbers.refined), kind);
+    tell("search", questions.size(), questions.size());
+    AskedLaws asked{std::vector<bool>(questions.size(), true), std::vector<bool>(questions.size(), false)};
+    for (auto const& one : tried) {
+      Refusal const refusal = one.facts.refusal;
+      asked.open[one.question] = refusal == Refusal::none;
+      asked.doubted[one.question] = refusal == Refusal::at_bound || refusal == Refusal::not_predicted;
+    }
+    ReplicateTask const task{result_.final, left_beside_law(tried),
+                             gains,         asked,
+                             kind,          static_cast<std::uint32_t>(result_.facts.steps.size())};
+    ReplicateGains const null = replicate_gains(q_, task, questions);
+    if (null.chance.replicates() < 2) return false;  // no model that could be followed
+    add_those_beyond_chance(tried, beside, questions, findings, null.chance, kind);
+    chance_of_delay_.insert(chance_of_delay_.end(), null.delays.begin(), null.delays.end());
+    if (result_.facts.steps.empty()) result_.baseline_replicates = null.left;
+    result_.final_replicates = null.left;
+    SmoothCorrection const correction = best_correction(recording, score);
+    StepFacts facts{{},
+                    null.chance.replicates(),
+                    null.source,
+                    of_clock,
+                    false,
+                    visible_share(null.chance, score, kind),
+                    std::sqrt(recording.chosen().fit.energy() / rows().training_energy),
+                    {correction.axis, correction.gain, empirical_p(correction.gain, null.corrections),
+                     correction.rms / rows().torque_rms()}};
+    facts.laws = law_facts(questions, findings, tried, null.chance);
+    for (auto const& law : facts.laws) levels_[law.effect] = law.level;
+    facts.has_taken = take_first(facts.laws, tried);
+    result_.facts.last_steps = facts.has_taken ? 0 : result_.facts.last_steps + 1;
+    result_.facts.steps.push_back(std::move(facts));
+    return result_.facts.steps.back().has_taken;
+  }
+
+  // Laws that gain less than others, but more beyond what chance does for them. Among all, largest D first
+  void add_those_beyond_chance(std::vector<TriedLaw>& tried, TrialModel const& beside,
+                               std::vector<LawQuestion> const& questions, std::vector<LawFinding> const& findings,
+                               Chance const& chance, FoldKind kind) const {
+    Eigen::VectorXd const gains = gains_of(findings), relative = chance.relative(gains), p = chance.p(gains);
+    std::vector<std::size_t> further = first_of(by_value(relative), q_.numbers.refined);
+    std::erase_if(further, [&](std::size_t law) {
+      return p[static_cast<Eigen::Index>(law)] > q_.numbers.alpha ||
+             std::any_of(tried.begin(), tried.end(), [&](TriedLaw const& one) { return one.question == law; });
+    });
+    for (auto& one : tried_laws(q_, beside, questions, findings, further, kind)) tried.push_back(std::move(one));
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](TriedLaw const& a, TriedLaw const& b) { return a.facts.gain > b.facts.gain; });
+  }
+
+  // what the model leaves beside the law that gains most and that nothing speaks against
+  Eigen::VectorXd const& left_beside_law(std::vector<TriedLaw> const& tried) const {
+    auto const first =
+        std::find_if(tried.begin(), tried.end(), [](auto const& one) { return one.facts.refusal == Refusal::none; });
+    return first == tried.end() ? result_.final.fitted->residual() : first->with.fitted->residual();
+  }
+
+  // of all laws, largest T first
+  std::vector<LawFacts> law_facts(std::vector<LawQuestion> const& questions, std::vector<LawFinding> const& findings,
+                                  std::vector<TriedLaw> const& tried, Chance const& chance) const {
+    Eigen::VectorXd const p = chance.p(gains_of(findings)), level = chance.level(q_.numbers.alpha);
+    std::vector<LawFacts> laws;
+    for (std::size_t const i : by_value(chance.relative(gains_of(findings)))) {
+      auto const at = static_cast<Eigen::Index>(i);
+      auto const own = std::find_if(tried.begin(), tried.end(), [&](auto const& one) { return one.question == i; });
+      LawFacts law = own != tried.end()
+                         ? own->facts
+                         : LawFacts{questions[i].effect, questions[i].grid.point(findings[i].point), findings[i].gain};
+      law.p = p[at];
+      law.level = level[at];
+      if (own == tried.end() || law.refusal == Refusal::none) law.refusal = Refusal::smaller;
+      if (law.p > q_.numbers.alpha) law.refusal = Refusal::chance;
+      laws.push_back(std::move(law));
+    }
+    return laws;
+  }
+
+  // the one that gains most and that nothing speaks against
+  bool take_first(std::vector<LawFacts>& laws, std::vector<TriedLaw>& tried) {
+    for (auto& one : tried) {
+      auto const law =
+          std::find_if(laws.begin(), laws.end(), [&](auto const& facts) { return facts.effect == one.facts.effect; });
+      if (one.facts.refusal != Refusal::none || law->p > q_.numbers.alpha) continue;
+      law->refusal = Refusal::none;
+      accepted_.push_back(*law);
+      // once more, with the loads and levels that the joint has beside the law: without it they are bent
+      result_.final = fitted_with(effects_now(), *one.with.fitted);
+      judged_ = errors_of(rows(), result_.final).judged();
+      return true;
+    }
+    return false;
+  }
+
+  // the torque of a law of which as many laws as not would come out: S_0 falls by D / n_eff in its logarithm
+  double visible_share(Chance const& chance, Score const& score, FoldKind kind) const {
+    Eigen::VectorXd needed = chance.needed(q_.numbers.alpha);
+    std::nth_element(needed.begin(), needed.begin() + needed.size() / 2, needed.end());
+    Eigen::VectorXd const left = score.left_on_rows_with({}, 0, kind);
+    double const fall = std::expm1(needed[needed.size() / 2] / effective_samples(left));
+    return std::sqrt(fall * left.squaredNorm() / rows().training_energy);
+  }
+
+  // D of one law of the final model against the model without it
+  double gain_beside(FittedModel const& without, std::size_t law) const {
+    Score const score(without.fitted->base(), without.fitted->residual(), without.fitted->guard());
+    return score.gain(law_group(*without.fitted, score.basis(), *accepted_[law].effect, accepted_[law].shape), 0,
+                      folds_of(*accepted_[law].effect));
+  }
+
+  double level_of(Effect const* law) const {
+    auto const found = levels_.find(law);
+    return found == levels_.end() ? 0.0 : found->second;
+  }
+
+  // laws taken early that later ones, or the delay beside them, have made useless
+  void drop_useless() {
+    while (!accepted_.empty()) {
+      std::size_t weakest = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < accepted_.size(); ++i)
+        if (double const gain = gain_beside(fitted_without(i), i) - level_of(accepted_[i].effect); gain < least) {
+          least = gain;
+          weakest = i;
+        }
+      if (least > 0.0) return;
+      FittedModel without = fitted_without(weakest);
+      double const judged = errors_of(rows(), without).judged();
+      if (judged > judged_) return;  // another recording needs it
+      drop(weakest, std::move(without), judged);
+    }
+  }
+
+  void drop(std::size_t law, FittedModel without, double judged) {
+    result_.final = std::move(without);
+    judged_ = judged;
+    accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(law));
+  }
+
+  // laws that could stand in its place about as well; other recordings say which of them stands there
+  void find_rivals(std::size_t law) {
+    Effect const* const effect = accepted_[law].effect;
+    FoldKind const kind = folds_of(*effect);
+    auto const effects = effects_without(law);
+    FittedModel const without = fitted_with(effects, *result_.final.fitted);
+    Score const score(without.fitted->base(), without.fitted->residual(), without.fitted->guard());
+    std::vector<Effect const*> laws = laws_to_ask(false);
+    if (kind == FoldKind::interleaved) {
+      auto const others = laws_to_ask(true);
+      laws.insert(laws.end(), others.begin(), others.end());
+    }
+    std::erase(laws, effect);
+    auto const questions = law_questions(laws, scales(), shortest_way());
+    auto const findings = scan_recording(questions, *without.fitted, score, kind, q_.threads);
+    double const gain = gain_beside(without, law), judged = errors_of(rows(), without).judged();
+    auto tried = tried_laws(q_, trial_model(without, effects, score, judged), questions, findings,
+                            first_of(by_value(gains_of(findings)), q_.numbers.refined), kind);
+    std::erase_if(tried, [&](TriedLaw const& one) {
+      double const own = level_of(one.facts.effect), least = gain - std::max(level_of(effect), own);
+      return one.facts.refusal != Refusal::none || one.facts.gain < std::max(own, least);
+    });
+    accepted_[law].gain = gain;
+    for (auto const& one : tried) accepted_[law].rivals.push_back(one.facts.effect);
+    if (auto const weight = weight_in_place_of(*effect, tried); weight != tried.end())
+      return stand_instead(law, std::move(*weight));
+    auto const best = std::min_element(tried.begin(), tried.end(), [](TriedLaw const& a, TriedLaw const& b) {
+      return a.facts.judged_after < b.facts.judged_after;
+    });
+    if (rows().validation.empty() || best == tried.end()) return;
+    if (best->facts.judged_after < judged_) stand_instead(law, std::move(*best));
+  }
+
+  // Every link has a weight unless its axis is upright, few have a spring: where both serve, the weight stands first.
+  // Other recordings may speak against it
+  std::vector<TriedLaw>::iterator weight_in_place_of(Effect const& effect, std::vector<TriedLaw>& tried) const {
+    if (effect.family() != EffectFamily::static_position || effect.is_weight()) return tried.end();
+    return std::find_if(tried.begin(), tried.end(), [&](TriedLaw const& one) {
+      bool const is_refuted =
+          !rows().validation.empty() && (1.0 - q_.numbers.least_fall) * one.facts.judged_after > judged_;
+      return one.facts.effect->is_weight() && !is_refuted;
+    });
+  }
+
+  void stand_instead(std::size_t law, TriedLaw by) {
+    LawFacts& place = accepted_[law];
+    std::replace(place.rivals.begin(), place.rivals.end(), by.facts.effect, place.effect);
+    by.facts.rivals = std::move(place.rivals);
+    by.facts.p = place.p;
+    by.facts.level = level_of(by.facts.effect);
+    judged_ = by.facts.judged_after;
+    // the model has its laws in the order of the names
+    std::rotate(accepted_.begin() + static_cast<std::ptrdiff_t>(law),
+                accepted_.begin() + static_cast<std::ptrdiff_t>(law) + 1, accepted_.end());
+    accepted_.back() = std::move(by.facts);
+    result_.final = std::move(by.with);
+  }
+
+  // laws of a clock explain what any incomplete model leaves
+  void drop_laws_of_clock() {
+    for (std::size_t law = accepted_.size(); law-- > 0;) {
+      if (!is_clock_bound(*accepted_[law].effect)) continue;
+      FittedModel without = fitted_without(law);
+      double const judged = errors_of(rows(), without).judged();
+      drop(law, std::move(without), judged);
+    }
+  }
+
+  std::span<StepFacts const> last_steps() const {
+    return std::span(result_.facts.steps).last(result_.facts.last_steps);
+  }
+
+  void finish() {
+    DecisionFacts& facts = result_.facts;
+    facts.is_complete = is_complete(last_steps(), q_.numbers);
+    if (!facts.is_complete) drop_laws_of_clock();
+    // from the last one on: a law that another stands for goes to the end
+    for (std::size_t i = accepted_.size(); i-- > 0;) find_rivals(i);
+    facts.accepted = accepted_;
+    facts.delay = decided_delay(q_, rows(), result_.final, chance_of_delay_);
+    facts.delay.is_named = facts.delay.is_named && facts.is_complete;
+    // a delay that is named is a part of what the names explain
+    facts.baseline = facts.delay.is_named ? errors_of(rows(), at_allowed_delay(rows(), result_.baseline))
+                                          : errors_of(rows(), result_.baseline);
+    facts.baseline_late_s = result_.baseline.fitted->chosen().late_s;
+    facts.baseline_parameters = numbers_of(result_.baseline);
+    facts.final = errors_of(rows(), result_.final);
+    facts.parameters = numbers_of(result_.final);
+  }
+
+  DecisionQuestion const& q_;
+  std::vector<LawFacts> accepted_{};
+  std::map<Effect const*, double> levels_{};  // D by chance of each law, as last asked
+  std::vector<double> chance_of_delay_{};
+  double judged_ = 0.0;  // error of the final model on judged rows
+  JointDecision result_{};
+};
+
+}  // namespace
+
+JointDecision decide_joint(DecisionQuestion const& question) { return Search(question).run(); }
+
+}  // namespace torquescope

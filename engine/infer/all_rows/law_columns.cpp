@@ -1,0 +1,74 @@
+#include "engine/infer/all_rows/law_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace torquescope {
+namespace {
+
+// the same places and accelerations, always this way
+Motion one_way(Motion motion, double side, double least_speed) {
+  motion.dq = side * motion.dq.cwiseAbs().cwiseMax(least_speed);
+  return motion;
+}
+
+double slowest(double deadband) { return std::max(2.0 * deadband, std::numeric_limits<double>::min()); }
+
+}  // namespace
+
+LawColumnsOnStrip columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes, Strip const& strip,
+                             FittedBaseline const& baseline) {
+  LawColumnsOnStrip result;
+  auto const count = static_cast<Eigen::Index>(effect.n_linear() * shapes.size());
+  result.is_driven = effect.has_inertia();
+  Motion const& motion = result.is_driven ? strip.drive : strip.motion;
+  auto const put = [&](Motion const& on, Eigen::MatrixXd& out) {
+    EffectInput input = result.is_driven ? EffectInput{on, baseline.scales} : baseline.input(on);
+    input.given = strip.beside.given.get();
+    out.resize(on.q.size(), count);
+    effect.columns_of_shapes(input, shapes, out);
+  };
+  bool const is_split = effect.is_dry_friction() && !effect.has_memory() && !result.is_driven;
+  if (!is_split) {
+    put(motion, result.forward);
+    return result;
+  }
+  put(one_way(motion, 1.0, slowest(0.0)), result.forward);
+  put(one_way(motion, -1.0, slowest(0.0)), result.backward);
+  for (Eigen::Index k = 0; k < count; ++k) result.dry.push_back(k);
+  return result;
+}
+
+LawColumnsOnStrip columns_of(Regressor const& regressor, Strip const& strip) {
+  GivenSignals const* const given = strip.beside.given.get();
+  LawColumnsOnStrip result;
+  result.forward = regressor.columns(strip.motion, given);
+  auto const& owners = regressor.column_owners();
+  for (std::size_t k = 0; k < owners.size(); ++k)
+    if (regressor.terms()[owners[k].term]->is_dry_friction()) result.dry.push_back(static_cast<Eigen::Index>(k));
+  if (result.dry.empty()) return result;
+  double const least = slowest(regressor.velocity_deadband());
+  Eigen::MatrixXd const forward = regressor.columns(one_way(strip.motion, 1.0, least), given);
+  result.backward = regressor.columns(one_way(strip.motion, -1.0, least), given)(Eigen::all, result.dry);
+  for (Eigen::Index const k : result.dry) result.forward.col(k) = forward.col(k);
+  return result;
+}
+
+Eigen::MatrixXd mixed(LawColumnsOnStrip const& columns, Eigen::VectorXd const& sticking) {
+  Eigen::MatrixXd all = columns.forward;
+  for (std::size_t i = 0; i < columns.dry.size(); ++i) {
+    auto const at = static_cast<Eigen::Index>(i);
+    all.col(columns.dry[i]) = 0.5 * ((1.0 + sticking.array()) * columns.forward.col(columns.dry[i]).array() +
+                                     (1.0 - sticking.array()) * columns.backward.col(at).array());
+  }
+  return all;
+}
+
+Eigen::MatrixXd on_rows(Strip const& strip, LawColumnsOnStrip const& columns, Eigen::VectorXd const& sticking,
+                        Eigen::VectorXd const& weight) {
+  if (columns.is_driven) return drive_on_rows(strip, at_drive_rate(strip, weight).asDiagonal() * columns.forward);
+  return on_rows(strip, weight.asDiagonal() * mixed(columns, sticking));
+}
+
+}  // namespace torquescope

@@ -1,0 +1,77 @@
+#pragma once
+// Every law of the catalogue beside one model: the shape at which it leaves the least on held-out rows, and its D.
+//
+// Replicates each is fitted and searched as the recording is, on its own columns. Laws whose columns a replicate's
+//            motion hardly changes (of the place, of time) are computed once for all
+// Kind       of the folds: one for all laws of a scan
+// Threads    spreads laws and replicates over `threads`; same bits for any number
+// Source     engine/infer/all_rows/THEORY.md, Chance
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/infer/all_rows/score.hpp"
+#include "engine/infer/all_rows/treatment_choice.hpp"
+#include "engine/infer/search/shape_grid.hpp"
+
+namespace torquescope {
+
+// a recording, or a replicate of it, with one model fitted
+class FittedStrips {
+ public:
+  // model outlives it
+  FittedStrips(JointModel const& model, std::vector<Strip> strips, DelayChoice const& delay);
+
+  std::span<Strip const> strips() const { return strips_; }
+  ModelOnStrips const& on() const { return *on_; }
+  ChosenTreatment const& chosen() const { return chosen_; }
+  Eigen::VectorXd const& residual() const { return residual_; }  // with the noise, of the linear fit
+  Eigen::VectorXd const& parameters() const { return parameters_; }
+  Eigen::MatrixXd const& base() const { return base_; }  // columns of the fit, then tangents: delay, sticking, shapes
+  Eigen::Index first_tangent() const { return on_->parameters(); }  // of base(): the delay's
+  Eigen::Index guard() const;
+  // further noise, the treatment as it is
+  void add_noise(Eigen::VectorXd const& noise);
+
+ private:
+  std::vector<Strip> strips_;
+  std::unique_ptr<ModelOnStrips> on_;
+  ChosenTreatment chosen_;
+  Eigen::VectorXd residual_, parameters_;
+  Eigen::MatrixXd base_;
+};
+
+// columns of a law at several shapes, on all rows; n x (shapes * n_linear)
+Eigen::MatrixXd law_on_rows(FittedStrips const& fitted, Effect const& effect,
+                            std::vector<std::vector<double>> const& shapes);
+OrthonormalGroup law_group(FittedStrips const& fitted, Eigen::MatrixXd const& basis, Effect const& effect,
+                           std::vector<double> const& shape);
+
+struct LawQuestion {
+  Effect const* effect = nullptr;
+  ShapeGrid grid{};
+  bool is_same_for_all = false;  // columns are those of the recording in every replicate
+};
+
+// shorter ways than `shortest` are the sticking's own (sticking_shape.hpp): no law is asked for them
+std::vector<LawQuestion> law_questions(std::vector<Effect const*> const& laws, JointScales const& scales,
+                                       double shortest);
+// finds is_same_for_all, by one replicate
+void compare_columns(std::vector<LawQuestion>& questions, FittedStrips const& recording, FittedStrips const& replicate,
+                     double most_change);
+
+struct LawFinding {
+  std::size_t point = 0;  // of the grid
+  double left = 0.0;      // squares on held-out rows
+  double gain = 0.0;      // D
+};
+
+// of the recording, one for each question
+std::vector<LawFinding> scan_recording(std::vector<LawQuestion> const& questions, FittedStrips const& recording,
+                                       Score const& score, FoldKind kind, int threads);
+// D of every law in every replicate: laws x replicates
+Eigen::MatrixXd gains_of_replicates(std::vector<LawQuestion> const& questions, FittedStrips const& recording,
+                                    std::vector<FittedStrips> const& replicates, FoldKind kind, int threads);
+
+}  // namespace torquescope

@@ -1,0 +1,73 @@
+#include "engine/infer/all_rows/law_trial.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/parallel.hpp"
+#include "engine/infer/all_rows/law_shape.hpp"
+
+namespace torquescope {
+namespace {
+
+bool is_beyond_bounds(LawFacts const& law, RefinedLaw const& refined, JointScales const& scales) {
+  if (refined.is_at_bound) return true;
+  auto const ranges = law.effect->linear_bounds(scales);
+  for (Eigen::Index k = 0; k < refined.parameters.size(); ++k)
+    if (refined.parameters[k] > ranges[static_cast<std::size_t>(k)].upper) return true;
+  return false;
+}
+
+Refusal refusal_of(LawFacts const& law, RefinedLaw const& refined, JointScales const& scales,
+                   DecisionNumbers const& numbers) {
+  bool const falls = law.judged_after < law.judged_before;
+  bool const falls_enough = law.judged_after <= (1.0 - numbers.least_fall) * law.judged_before;
+  if (!(law.size >= numbers.delta) || (falls && !falls_enough)) return Refusal::too_small;
+  if (is_beyond_bounds(law, refined, scales)) return Refusal::at_bound;
+  return falls ? Refusal::none : Refusal::not_predicted;
+}
+
+TriedLaw tried(DecisionQuestion const& question, TrialModel const& beside, LawQuestion const& law,
+               LawFinding const& found, FoldKind kind) {
+  if (!(found.gain > 0.0)) return {0, LawFacts{law.effect}, {}};
+  RefinedLaw const refined = refined_law(law, found, *beside.fitted.fitted, beside.score, kind);
+  TriedLaw one{0, {law.effect, refined.shape, std::max(found.gain, refined.gain)}, {}};
+  one.facts.size = refined.rms / beside.rows.torque_rms();
+  auto effects = beside.effects;
+  effects.push_back({law.effect, refined.shape});
+  one.with = fitted_model(beside.rows, question.regressor, std::move(effects), beside.fitted.fitted.get(),
+                          {DelaySearch::everywhere, question.numbers.longest_delay_s});
+  one.facts.judged_before = beside.judged;
+  one.facts.judged_after = errors_of(beside.rows, one.with).judged();
+  one.facts.refusal = refusal_of(one.facts, refined, beside.scales, question.numbers);
+  return one;
+}
+
+}  // namespace
+
+std::vector<std::size_t> by_value(Eigen::VectorXd const& values) {
+  std::vector<std::size_t> order(static_cast<std::size_t>(values.size()));
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return values[static_cast<Eigen::Index>(a)] > values[static_cast<Eigen::Index>(b)];
+  });
+  return order;
+}
+
+Eigen::VectorXd gains_of(std::vector<LawFinding> const& findings) {
+  Eigen::VectorXd gains(static_cast<Eigen::Index>(findings.size()));
+  for (std::size_t i = 0; i < findings.size(); ++i) gains[static_cast<Eigen::Index>(i)] = findings[i].gain;
+  return gains;
+}
+
+std::vector<TriedLaw> tried_laws(DecisionQuestion const& question, TrialModel const& beside,
+                                 std::vector<LawQuestion> const& laws, std::vector<LawFinding> const& findings,
+                                 std::vector<std::size_t> const& which, FoldKind kind) {
+  std::vector<TriedLaw> all(which.size());
+  parallel_for(all.size(), question.threads, [&](std::size_t k, int) {
+    all[k] = tried(question, beside, laws[which[k]], findings[which[k]], kind);
+    all[k].question = which[k];
+  });
+  return all;
+}
+
+}  // namespace torquescope

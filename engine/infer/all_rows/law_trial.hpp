@@ -1,0 +1,41 @@
+#pragma once
+// The few laws that gain most beside one model, refined and fitted, and what but chance speaks against each of them.
+//
+// Size       a torque of at least delta of the torque's rms, and an error on judged rows that falls by least_fall
+// Bounds     no parameter beyond what it can be, no shape at an end of its range which is no law of its own
+// Judged     rows that no fit has seen: other recordings, else ten folds
+// Threads    spreads laws over the threads of the question; same bits for any number
+// Source     engine/infer/all_rows/THEORY.md, The rules
+
+#include <vector>
+
+#include "engine/infer/all_rows/fitted_model.hpp"
+
+namespace torquescope {
+
+// a model that laws are tried beside
+struct TrialModel {
+  JointStrips const& rows;
+  FittedModel const& fitted;
+  std::vector<ShapedEffect> const& effects;  // that it has
+  Score const& score;                        // of its residual
+  JointScales const& scales;
+  double judged = 0.0;  // its error on judged rows
+};
+
+struct TriedLaw {
+  std::size_t question = 0;
+  LawFacts facts{};
+  FittedModel with{};  // the model beside the law; empty where the law gains nothing
+};
+
+// places in order of falling value
+std::vector<std::size_t> by_value(Eigen::VectorXd const& values);
+Eigen::VectorXd gains_of(std::vector<LawFinding> const& findings);
+
+// in the order of `which`
+std::vector<TriedLaw> tried_laws(DecisionQuestion const& question, TrialModel const& beside,
+                                 std::vector<LawQuestion> const& laws, std::vector<LawFinding> const& findings,
+                                 std::vector<std::size_t> const& which, FoldKind kind);
+
+}  // namespace torquescope

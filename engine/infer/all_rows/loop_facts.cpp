@@ -1,0 +1,26 @@
+#include "engine/infer/all_rows/loop_facts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/simulate/rollout/drive_law.hpp"
+
+namespace torquescope {
+
+std::string name_of(LoopSubject const& subject) {
+  if (subject.effect != nullptr) return subject.effect->name();
+  return drive_law_of(subject.key).name;
+}
+
+double LoopErrors::both() const {
+  if (std::isnan(position)) return torque;
+  return std::isnan(torque) ? position : std::sqrt(position * torque);
+}
+
+bool LoopFacts::is_kept(LoopSubject const& subject) const {
+  return std::any_of(kept.begin(), kept.end(), [&](KeptMove const& move) {
+    return move.subject == subject || std::find(move.rivals.begin(), move.rivals.end(), subject) != move.rivals.end();
+  });
+}
+
+}  // namespace torquescope

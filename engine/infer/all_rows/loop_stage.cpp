@@ -1,0 +1,58 @@
+#include "engine/infer/all_rows/loop_stage.hpp"
+
+#include <algorithm>
+
+#include "engine/base/error.hpp"
+#include "engine/infer/all_rows/loop_ladder.hpp"
+#include "engine/infer/all_rows/loop_moves.hpp"
+#include "engine/infer/all_rows/loop_tracks.hpp"
+
+namespace torquescope {
+namespace {
+
+// least squares of the rows, which missing physics bends: no joint is driven by its friction or has no inertia
+Eigen::VectorXd possible_start(Regressor const& regressor, std::vector<FittedNumber> const& fitted,
+                               JointScales const& scales) {
+  Eigen::VectorXd start(static_cast<Eigen::Index>(regressor.size()));
+  Eigen::Index at = 0;
+  for (auto const* term : regressor.terms())
+    for (std::size_t k = 0; k < term->n_linear(); ++k, ++at) {
+      double& value = start[at];
+      value = fitted[static_cast<std::size_t>(at)].value;
+      if (term->name() == "inertia" && !(value > 0.0)) value = bound_value({0.1, RelativeTo::inertia}, scales);
+      if (term->name() == "coulomb") value = std::max(value, 0.0);
+    }
+  return start;
+}
+
+}  // namespace
+
+LoopFacts decide_in_loop(DecisionQuestion const& question, JointDecision const& scan, LoopOptions const& loop) {
+  LoopFacts facts;
+  try {
+    LoopTracks const tracks = loop_tracks(question.training, question.validation, loop, question.numbers);
+    facts.form = tracks.setting.form;
+    facts.loop_error = tracks.loop_error;
+    if (tracks.training.empty() || facts.form == LoopForm::none) return facts;
+    facts.reason = LoopReason::no_controller;
+    bool const is_found = form_of(loop) == LoopForm::identified;
+    if (is_found && !(facts.loop_error <= question.numbers.largest_loop_error)) return facts;
+    JointScales const& scales = scan.baseline.model->reference().scales;
+    Eigen::VectorXd const start = possible_start(question.regressor, scan.facts.baseline_parameters, scales);
+    LoopQuestion asked{question.regressor, start,           scales, tracks.setting,     tracks.training,
+                       tracks.validation,  tracks.counts,   {},     question.most_laws, question.numbers,
+                       question.seed,      question.threads};
+    asked.progress = question.progress;
+    asked.moves = drive_moves(tracks.setting, tracks.training, drive_laws_of(DriveLawKind::profile));
+    for (auto& law : law_moves(scan.facts, question.regressor, scales, question.numbers))
+      asked.moves.push_back(std::move(law));
+    double const loop_error = facts.loop_error;
+    facts = climb_ladder(asked).facts;
+    facts.loop_error = loop_error;
+  } catch (Error const&) {
+    // a recording with no stretch long enough to be simulated
+  }
+  return facts;
+}
+
+}  // namespace torquescope

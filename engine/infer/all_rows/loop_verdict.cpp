@@ -1,0 +1,46 @@
+#include "engine/infer/all_rows/loop_verdict.hpp"
+
+#include <algorithm>
+
+#include "engine/effects/carry_over.hpp"
+
+namespace torquescope {
+
+bool StandingNames::any() const {
+  return has_delay || !added.empty() || std::find(laws.begin(), laws.end(), true) != laws.end();
+}
+
+StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop) {
+  StandingNames names;
+  names.by_loop = loop.decides();
+  names.laws.assign(scan.accepted.size(), true);
+  names.has_delay = scan.delay.is_named;
+  if (!names.by_loop) return names;
+  bool const has_command = std::any_of(loop.kept.begin(), loop.kept.end(),
+                                       [](KeptMove const& move) { return move.subject.is_of_command(); });
+  for (std::size_t i = 0; i < scan.accepted.size(); ++i) {
+    Effect const* const law = scan.accepted[i].effect;
+    // other recordings say nothing of a clock: only another explanation speaks against it
+    names.laws[i] = loop.is_kept({law}) || (is_clock_bound(*law) && !has_command);
+  }
+  LoopSubject const delay{nullptr, LoopKey::command_delay_s};
+  bool const asks_command = loop.form != LoopForm::identified;
+  // one that is a rival of another name stands in its class
+  if (asks_command)
+    names.has_delay =
+        std::any_of(loop.kept.begin(), loop.kept.end(), [&](KeptMove const& move) { return move.subject == delay; });
+  for (auto const& move : loop.kept) {
+    if (move.subject == delay) {
+      names.command_delay = move.numbers.front();
+      continue;
+    }
+    auto const is_told = [&](LawFacts const& law) {
+      LoopSubject const subject{law.effect};
+      return move.subject == subject || std::find(move.rivals.begin(), move.rivals.end(), subject) != move.rivals.end();
+    };
+    if (std::none_of(scan.accepted.begin(), scan.accepted.end(), is_told)) names.added.push_back(move);
+  }
+  return names;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,142 @@
+#include "engine/infer/all_rows/pooled_rows.hpp"
+
+#include <cmath>
+
+#include "engine/base/contract.hpp"
+#include "engine/fit/statistics/equal_blocks.hpp"
+#include "engine/fit/statistics/scaled_solution.hpp"
+
+namespace torquescope {
+namespace {
+
+// columns of the model but for those of one given term
+std::vector<Eigen::Index> without_term(Regressor const& regressor, std::string const& term, Eigen::Index columns) {
+  std::vector<Eigen::Index> kept;
+  auto const& owners = regressor.column_owners();
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    auto const at = static_cast<std::size_t>(k);
+    if (at >= owners.size() || regressor.terms()[owners[at].term]->name() != term) kept.push_back(k);
+  }
+  return kept;
+}
+
+Eigen::MatrixXd shared_on_rows(Strip const& strip, SampleTreatment const& samples, SharedLaw const& law) {
+  Eigen::MatrixXd const* const columns = strip.beside.given ? strip.beside.given->of(law.shared) : nullptr;
+  TORQUESCOPE_EXPECT(columns != nullptr && columns->cols() == std::ssize(law.places));
+  Eigen::MatrixXd const rows = on_rows(strip, samples.weight.asDiagonal() * *columns);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows.rows(), law.parameters);
+  all(Eigen::all, law.places) = rows;
+  return all;
+}
+
+Eigen::MatrixXd shared_on_rows(FittedStrips const& fitted, SharedLaw const& law) {
+  Eigen::MatrixXd all(fitted.on().rows(), law.parameters);
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < fitted.strips().size(); ++i) {
+    Eigen::MatrixXd const rows = shared_on_rows(fitted.strips()[i], fitted.chosen().fit.samples[i], law);
+    all.middleRows(row, rows.rows()) = rows;
+    row += rows.rows();
+  }
+  return all;
+}
+
+SharedRows rows_of(FittedStrips const& fitted, Eigen::MatrixXd const& columns, SharedLaw const& law) {
+  auto const own = without_term(fitted.on().model().regressor(), law.instead_of, columns.cols());
+  return {shared_on_rows(fitted, law), columns(Eigen::all, own), fitted.chosen().fit.torque};
+}
+
+// less the mean that a constant may take
+SharedRows less_mean(SharedRows rows, Eigen::VectorXd const& constant) {
+  double const whole = constant.squaredNorm();
+  if (!(whole > 0.0)) return rows;
+  auto const take = [&](auto& columns) {
+    columns = (columns - constant * (constant.transpose() * columns) / whole).eval();
+  };
+  take(rows.shared);
+  take(rows.own);
+  take(rows.torque);
+  return rows;
+}
+
+SharedRows unseen_rows(FittedModel const& by, Strip const& strip, SharedLaw const& law) {
+  ModelOnStrips const on(*by.model, {&strip, 1});
+  Eigen::VectorXd const parameters = by.fitted->parameters().head(on.parameters());
+  double const late_s = by.fitted->chosen().late_s;
+  auto const samples = treated_samples(on, late_s, parameters, by.fitted->chosen().fit.sticking);
+  Eigen::MatrixXd const columns = model_on_rows(on, samples);
+  auto const own = without_term(by.model->regressor(), law.instead_of, columns.cols());
+  return less_mean(
+      {shared_on_rows(strip, samples.front(), law), columns(Eigen::all, own), torque_on_rows(on, samples, late_s)},
+      on_rows(strip, samples.front().weight).col(0));
+}
+
+SharedRows picked(SharedRows const& rows, std::vector<Eigen::Index> const& which) {
+  return {rows.shared(which, Eigen::all), rows.own(which, Eigen::all), rows.torque(which)};
+}
+
+// squares that the fit with these shared parameters, and own ones from `trained`, leaves of `rows`
+double left_of(SharedRows const& rows, SharedRows const& trained, Eigen::VectorXd const& shared) {
+  Eigen::VectorXd const own = solve_scaled(trained.own, trained.torque - trained.shared * shared).col(0);
+  // further recordings' offsets stand behind what other recordings have as well
+  return (rows.torque - rows.shared * shared - rows.own * own.head(rows.own.cols())).squaredNorm();
+}
+
+Eigen::VectorXd fitted_together(std::vector<SharedRows> const& joints, std::vector<double> const& variances) {
+  SharedInformation all = SharedInformation::none(joints.front().shared.cols());
+  for (std::size_t j = 0; j < joints.size(); ++j) all.add(information_of(joints[j], variances[j]));
+  return shared_parameters(all);
+}
+
+Eigen::VectorXd held_out_squares(std::span<PooledRows const* const> joints, std::vector<double> const& variances) {
+  Eigen::VectorXd left = Eigen::VectorXd::Zero(std::ssize(joints));
+  for (Eigen::Index fold = 0; fold < n_folds; ++fold) {
+    std::vector<SharedRows> inside, outside;
+    for (auto const* joint : joints) {
+      Eigen::Index const n = joint->training.torque.size();
+      RowBlock const block = equal_blocks(n, n_folds)[static_cast<std::size_t>(fold)];
+      std::vector<Eigen::Index> held;
+      for (Eigen::Index i = block.from; i < block.to; ++i) held.push_back(i);
+      inside.push_back(picked(joint->training, held));
+      outside.push_back(picked(joint->training, rows_outside(n, block, joint->guard)));
+    }
+    Eigen::VectorXd const shared = fitted_together(outside, variances);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      left[static_cast<Eigen::Index>(j)] += left_of(inside[j], outside[j], shared);
+  }
+  return left;
+}
+
+}  // namespace
+
+SharedRows shared_rows(FittedStrips const& fitted, SharedLaw const& law) { return rows_of(fitted, fitted.base(), law); }
+
+PooledRows pooled_rows(JointStrips const& rows, FittedModel const& by, SharedLaw const& law) {
+  PooledRows pooled;
+  pooled.training = rows_of(*by.fitted, by.fitted->chosen().fit.columns, law);
+  for (auto const& strip : rows.validation) pooled.validation.push_back(unseen_rows(by, strip, law));
+  pooled.guard = by.fitted->guard();
+  pooled.training_energy = rows.training_energy;
+  pooled.validation_energy = rows.validation_energy;
+  return pooled;
+}
+
+PooledErrors pooled_errors(std::span<PooledRows const* const> joints, std::vector<double> const& variances) {
+  std::vector<SharedRows> training;
+  for (auto const* joint : joints) training.push_back(joint->training);
+  Eigen::VectorXd const shared = fitted_together(training, variances), held_out = held_out_squares(joints, variances);
+  PooledErrors errors;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    PooledRows const& joint = *joints[j];
+    auto const at = static_cast<Eigen::Index>(j);
+    double unseen = 0.0;
+    for (auto const& strip : joint.validation) unseen += left_of(strip, joint.training, shared);
+    ModelErrors own{std::sqrt(left_of(joint.training, joint.training, shared) / joint.training_energy),
+                    std::sqrt(held_out[at] / joint.training_energy)};
+    if (!joint.validation.empty()) own.validation = std::sqrt(unseen / joint.validation_energy);
+    errors.of_joints.push_back(own);
+    errors.judged += (joint.validation.empty() ? held_out[at] : unseen) / variances[j];
+  }
+  return errors;
+}
+
+}  // namespace torquescope

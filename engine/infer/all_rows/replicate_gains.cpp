@@ -1,0 +1,188 @@
+#include "engine/infer/all_rows/replicate_gains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "engine/base/parallel.hpp"
+#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/infer/all_rows/delay_decision.hpp"
+#include "engine/infer/all_rows/row_noise.hpp"
+#include "engine/infer/all_rows/smooth_correction.hpp"
+#include "engine/simulate/twin_lanes.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr std::size_t draws_for_each = 3;
+constexpr std::size_t fewest = 24;
+
+class Replicates {
+ public:
+  Replicates(DecisionQuestion const& question, ReplicateTask const& task) : q_(question), task_(task) {
+    ReplicateSetting const setting{
+        q_.training, q_.filter, plausible_sticking(recording().on(), recording().chosen(), q_.numbers.sticking_odds),
+        q_.seed,     task.step, q_.threads};
+    for (std::size_t i = 0; i < q_.training.size(); ++i)
+      makers_.emplace_back(setting, i, recording().on(), recording().chosen());
+    result_.source = makers_.front().source();
+    SmoothCorrection const found =
+        best_correction(recording(), {recording().base(), recording().residual(), recording().guard()});
+    double const energy = recording().chosen().fit.torque.squaredNorm() / static_cast<double>(recording().on().rows());
+    if (found.rms * found.rms >= q_.numbers.delta * q_.numbers.delta * energy) correction_ = found.gain;
+  }
+
+  ReplicateGains run(std::vector<LawQuestion>& questions) && {
+    std::size_t const wanted = q_.numbers.replicates;
+    for (std::size_t first = 0; first < draws_for_each * wanted && count() < wanted; first += twin_lanes) {
+      tell(wanted);
+      take(within(drawn(first)), questions);
+      if (is_decided()) break;
+    }
+    if (count() < fewest && !is_decided()) {
+      std::vector<FittedStrips> nearest = std::exchange(nearest_, {});
+      keep_first(nearest, fewest - count());
+      take(std::move(nearest), questions);
+    }
+    tell(count());
+    return std::move(result_);
+  }
+
+ private:
+  FittedStrips const& recording() const { return *task_.model.fitted; }
+  std::size_t count() const { return result_.chance.replicates(); }
+
+  void tell(std::size_t of) const {
+    if (q_.progress) q_.progress("replicates", count(), of);
+  }
+
+  // p is at most alpha, or cannot be any more
+  bool is_told(double p, double alpha) const {
+    double const all = static_cast<double>(count()) + 1.0;
+    return p <= alpha || p * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
+  }
+
+  // The first of the laws in question has come out and no replicate reached it; or it is told of all of them, and
+  // whether the model is adequate
+  bool is_decided() const {
+    if (count() < 2) return false;
+    Eigen::VectorXd const p = result_.chance.p(task_.gains);
+    double least = std::numeric_limits<double>::infinity();
+    bool are_told =
+        !correction_ || is_told(empirical_p(*correction_, result_.corrections), q_.numbers.correction_alpha());
+    for (Eigen::Index law = 0; law < p.size(); ++law) {
+      auto const at = static_cast<std::size_t>(law);
+      if (task_.asked.open[at]) least = std::min(least, p[law]);
+      if (task_.asked.open[at] || task_.asked.doubted[at]) are_told = are_told && is_told(p[law], q_.numbers.alpha);
+    }
+    if (least * (static_cast<double>(count()) + 1.0) < 1.5 && least <= q_.numbers.alpha) return true;
+    return count() >= fewest && are_told;
+  }
+
+  std::vector<FittedStrips> drawn(std::size_t first) const {
+    std::vector<std::vector<Strip>> strips(twin_lanes);
+    for (auto const& maker : makers_) {
+      std::vector<Strip> made = maker.strips(first, twin_lanes);
+      for (std::size_t t = 0; t < twin_lanes; ++t) strips[t].push_back(std::move(made[t]));
+    }
+    std::vector<std::unique_ptr<FittedStrips>> each(twin_lanes);
+    parallel_for(twin_lanes, q_.threads, [&](std::size_t t, int) {
+      each[t] = std::make_unique<FittedStrips>(*task_.model.model, std::move(strips[t]),
+                                               DelayChoice{DelaySearch::everywhere, q_.numbers.longest_delay_s});
+    });
+    std::vector<FittedStrips> fitted;
+    for (auto& one : each) fitted.push_back(std::move(*one));
+    return fitted;
+  }
+
+  static void keep_first(std::vector<FittedStrips>& all, std::size_t count) {
+    if (all.size() > count) all.erase(all.begin() + static_cast<std::ptrdiff_t>(count), all.end());
+  }
+
+  // those that leave no more than the recording; of the others the nearest are kept aside
+  std::vector<FittedStrips> within(std::vector<FittedStrips> all) {
+    double const most = recording().chosen().fit.energy();
+    std::vector<FittedStrips> kept;
+    std::erase_if(all, [](FittedStrips const& one) { return !std::isfinite(one.chosen().fit.energy()); });
+    for (auto& one : all) (one.chosen().fit.energy() <= most ? kept : nearest_).push_back(std::move(one));
+    std::stable_sort(nearest_.begin(), nearest_.end(), [](FittedStrips const& a, FittedStrips const& b) {
+      return a.chosen().fit.energy() < b.chosen().fit.energy();
+    });
+    keep_first(nearest_, fewest);
+    return kept;
+  }
+
+  void take(std::vector<FittedStrips> fitted, std::vector<LawQuestion>& questions) {
+    if (fitted.empty()) return;
+    if (noise_.empty()) {
+      noise_ = noise_beside(fitted);
+      compare_columns(questions, recording(), fitted.front(), q_.numbers.same_columns);
+    }
+    std::size_t const before = count();
+    result_.delays.resize(before + fitted.size());
+    parallel_for(fitted.size(), q_.threads, [&](std::size_t t, int) {
+      Eigen::VectorXd const noise = noise_of(before + t);
+      FittedStrips at_allowed(*task_.model.model, {fitted[t].strips().begin(), fitted[t].strips().end()},
+                              DelayChoice{DelaySearch::given, 0.0, allowed_delay(fitted[t])});
+      at_allowed.add_noise(noise);
+      fitted[t].add_noise(noise);
+      result_.delays[before + t] = delay_gain(fitted[t], at_allowed);
+    });
+    result_.left.conservativeResize(static_cast<Eigen::Index>(recording().strips().front().rows.size()),
+                                    static_cast<Eigen::Index>(before + fitted.size()));
+    for (std::size_t t = 0; t < fitted.size(); ++t)
+      result_.left.col(static_cast<Eigen::Index>(before + t)) = fitted[t].residual().head(result_.left.rows());
+    result_.chance.add(gains_of_replicates(questions, recording(), fitted, task_.kind, q_.threads));
+    result_.corrections.resize(before + fitted.size());
+    parallel_for(fitted.size(), q_.threads, [&](std::size_t t, int) {
+      Score const score(fitted[t].base(), fitted[t].residual(), fitted[t].guard());
+      result_.corrections[before + t] = best_correction(fitted[t], score).gain;
+    });
+  }
+
+  // what the recording leaves beyond replicates without noise; of each recording
+  std::vector<OctavePowers> noise_beside(std::vector<FittedStrips> const& replicates) const {
+    std::vector<OctavePowers> noise;
+    Eigen::Index row = 0;
+    for (auto const& strip : recording().strips()) {
+      auto const rows = static_cast<Eigen::Index>(strip.rows.size());
+      std::vector<OctavePowers> without;
+      for (auto const& one : replicates) without.push_back(octave_powers(one.residual().segment(row, rows)));
+      noise.push_back(less(octave_powers(task_.noise.segment(row, rows)), mean_of(without)));
+      row += rows;
+    }
+    return noise;
+  }
+
+  Eigen::VectorXd noise_of(std::size_t replicate) const {
+    Eigen::VectorXd all(recording().on().rows());
+    Eigen::Index row = 0;
+    for (std::size_t i = 0; i < noise_.size(); ++i) {
+      auto const rows = static_cast<Eigen::Index>(recording().strips()[i].rows.size());
+      auto const address = static_cast<std::uint32_t>(replicate * noise_.size() + i);
+      all.segment(row, rows) = drawn_noise(noise_[i], rows, {q_.seed, task_.step, address});
+      row += rows;
+    }
+    return all;
+  }
+
+  DecisionQuestion const& q_;
+  ReplicateTask const& task_;
+  std::vector<ReplicateMaker> makers_{};
+  std::vector<FittedStrips> nearest_{};  // of those that leave more than the recording
+  std::vector<OctavePowers> noise_{};
+  std::optional<double> correction_{};  // D of smooth functions, of the recording; none: too small to matter
+  ReplicateGains result_{};
+};
+
+}  // namespace
+
+ReplicateGains replicate_gains(DecisionQuestion const& question, ReplicateTask const& task,
+                               std::vector<LawQuestion>& laws) {
+  return Replicates(question, task).run(laws);
+}
+
+}  // namespace torquescope

@@ -1,0 +1,58 @@
+#include "engine/infer/all_rows/smooth_correction.hpp"
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "engine/fit/statistics/hat_functions.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr Eigen::Index knots = 12;
+
+// a signal of the laws' rate at the rows of all strips
+Eigen::VectorXd at_rows(FittedStrips const& fitted, std::function<Eigen::VectorXd const&(Strip const&)> const& signal) {
+  Eigen::VectorXd all(fitted.on().rows());
+  Eigen::Index first = 0;
+  for (auto const& strip : fitted.strips()) {
+    Eigen::VectorXd const rows = strip.filters->laws->pick(signal(strip))(strip.rows);
+    all.segment(first, rows.size()) = rows;
+    first += rows.size();
+  }
+  return all;
+}
+
+}  // namespace
+
+SmoothCorrection best_correction(FittedStrips const& fitted, Score const& score, Eigen::Index signal) {
+  Eigen::VectorXd const q = at_rows(
+      fitted, [](Strip const& one) -> auto const& { return one.motion.q; });
+  Eigen::VectorXd const dq = at_rows(
+      fitted, [](Strip const& one) -> auto const& { return one.motion.dq; });
+  Eigen::VectorXd const ddq = at_rows(
+      fitted, [](Strip const& one) -> auto const& { return one.motion.ddq; });
+  Eigen::VectorXd const time = at_rows(
+      fitted, [](Strip const& one) -> auto const& { return one.motion.time_s; });
+  Eigen::VectorXd const side = at_rows(
+      fitted, [](Strip const& one) -> auto const& { return one.direction; });
+  Eigen::MatrixXd const places = hats(q, knots);
+  std::vector<std::pair<SignatureAxis, Eigen::MatrixXd>> const axes{
+      {SignatureAxis::position, places},
+      {SignatureAxis::position, side.asDiagonal() * places},
+      {SignatureAxis::velocity, hats(dq, knots)},
+      {SignatureAxis::acceleration, hats(ddq, knots)},
+      {SignatureAxis::time, hats(time, knots)}};
+  SmoothCorrection best;
+  for (auto const& [axis, columns] : axes) {
+    OrthonormalGroup const group =
+        orthonormal_group(columns, score.basis(), std::vector<bool>(static_cast<std::size_t>(columns.cols()), false));
+    double const gain = score.gain(group, signal);
+    if (gain <= best.gain) continue;
+    double const energy = (group.q.transpose() * score.signals().col(signal)).squaredNorm();
+    best = {axis, gain, std::sqrt(energy / static_cast<double>(score.signals().rows()))};
+  }
+  return best;
+}
+
+}  // namespace torquescope

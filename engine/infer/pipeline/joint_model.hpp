@@ -1,0 +1,88 @@
+#pragma once
+// The model as it stands in a diagnosis: the baseline's terms and every effect accepted so far, at a fixed shape.
+//
+// Equation   tau = [columns of the baseline | columns of each effect at its shape] * parameters
+// Shapes     columns: n_samples x size(), full rate, before the parallel filter; effects in the order of acceptance
+// Reference  the baseline's parameters that effects are given (Coulomb levels, load and model torque): fixed numbers,
+//            so that the model stays linear in its parameters and is the same for the recording and its replicates
+// Units      SI
+// Threads    const object, any number of threads
+// Source     engine/infer/moving_rows/THEORY.md, The search
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/effects/fitted_baseline.hpp"
+#include "engine/effects/regressor.hpp"
+#include "engine/simulate/twin_joint.hpp"
+
+namespace torquescope {
+
+struct ShapedEffect {
+  Effect const* effect = nullptr;
+  std::vector<double> shape{};
+};
+
+struct BaselineReference {
+  JointScales scales{};
+  Eigen::VectorXd parameters{};  // of the regressor
+  // per sample: load that passes the gear beside the regressor's (Recording::gear_load); none
+  std::shared_ptr<Eigen::VectorXd const> gear_load{};
+  std::shared_ptr<GivenSignals const> given{};  // the recording's; none
+  double rate_hz = 0.0;                         // of both
+  BesideMotion beside_motion() const { return {given.get(), gear_load.get()}; }
+};
+
+// one per sample
+struct MotorTorque {
+  Eigen::VectorXd given;         // to the joint
+  Eigen::VectorXd channel_adds;  // to the record of it: of effects of the torque channel; empty without any
+};
+
+class JointModel {
+ public:
+  // NOLINTNEXTLINE(google-explicit-constructor): a regressor is a model without effects; it outlives the model
+  JointModel(Regressor const& regressor) : regressor_(&regressor) {}
+  JointModel(Regressor const& regressor, BaselineReference reference, std::vector<ShapedEffect> effects);
+
+  Regressor const& regressor() const { return *regressor_; }
+  BaselineReference const& reference() const { return reference_; }
+  // the same model on that recording: its gear load and what other joints do there, or none
+  void load_as_in(Recording const& recording);
+  std::vector<ShapedEffect> const& effects() const { return effects_; }
+  std::size_t size() const;
+  // index of the first parameter of effect i
+  std::size_t first_parameter(std::size_t effect) const;
+  std::vector<RegressorColumn> column_owners() const;
+  // parameters of effects that physics allows no negative value; those of the baseline are free
+  std::vector<bool> non_negative() const;
+
+  bool has_inertia() const;  // of any effect
+  // drive: the same motion with a wider band, for effects that have an inertia (record_pipeline.hpp)
+  Eigen::MatrixXd columns(Motion const& motion, Motion const& drive) const;
+  // what the joint needs at these parameters
+  MotorTorque motor_torque(Motion const& motion, Motion const& drive, Eigen::VectorXd const& parameters) const;
+  // linear parameters, then the shape: as Effect::runner takes them
+  std::vector<double> effect_parameters(std::size_t effect, Eigen::VectorXd const& parameters) const;
+  // Errors: Error 65 as make_twin_joint
+  TwinJoint twin_joint(Eigen::VectorXd const& parameters) const;
+
+ private:
+  Regressor const* regressor_;
+  BaselineReference reference_{};
+  std::vector<ShapedEffect> effects_{};
+};
+
+// of the recording, for a reference; none
+std::shared_ptr<Eigen::VectorXd const> gear_load_of(Recording const& recording);
+
+// load and model torque of the reference on a motion, its scales as they are
+FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& reference, Motion const& motion);
+
+// of the model's effects: as they come, but sines of one kind the longest first
+std::vector<std::size_t> waves_in_order(JointModel const& model);
+
+}  // namespace torquescope

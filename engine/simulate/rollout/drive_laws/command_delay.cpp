@@ -1,0 +1,21 @@
+#include "engine/simulate/rollout/drive_laws/drive_laws.hpp"
+
+namespace torquescope {
+
+DriveLaw const& command_delay_law() {
+  static DriveLaw const law{
+      .name = "command_delay",
+      .title = "Delay of the command",
+      .equation = "goal(t) = reference(t - command_delay)",
+      .confused = "torque_lag and torque_delay at a low gain; a faster motion tells",
+      .kind = DriveLawKind::profile,
+      .keys = {LoopKey::command_delay_s},
+      .adds = false,
+      .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
+        return {{0.1 * of.sample_s}, {0.5 * of.sample_s}, {2.0 * of.sample_s}, {0.02}, {0.06}};
+      },
+  };
+  return law;
+}
+
+}  // namespace torquescope

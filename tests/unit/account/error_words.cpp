@@ -1,0 +1,171 @@
+// What is said of errors never contradicts them: no likeness beside a small p, no gap below the floor, no silence where
+// the unseen recording is of another kind.
+
+#include "engine/account/error_words.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/account/sentences.hpp"
+#include "support/example_diagnosis.hpp"
+
+namespace torquescope {
+namespace error_words_test {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// the omnibus test sees what is too small to matter, and a gate may stay closed for want of a candidate
+TEST(ReasonSentence, OfNothingMissingDoesNotCallAResidualAlikeThatDiffers) {
+  Diagnosis diagnosis = example::invented_none();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.power_sentence.clear();
+  joint.omnibus_p = 1.0 / 201.0;
+  joint.mismatch_share = 0.0012;
+  EXPECT_EQ(
+      reason_sentence(diagnosis),
+      "The residual of joint 1 is larger than that of 200 simulated replicates (p < 0.005), but only by 0.12 % of the "
+      "torque: too "
+      "little to look for.");
+  joint.mismatch_share = 0.0043;
+  EXPECT_EQ(
+      reason_sentence(diagnosis),
+      "The residual of joint 1 is larger than that of 200 simulated replicates (p < 0.005), but only by 0.43 % of the "
+      "torque, "
+      "which is not enough beside how much the replicates differ from one another; and no known effect of 34 explains "
+      "both "
+      "more than chance does and more than 0.25 % of the torque.");
+  joint.omnibus_p = 0.2;
+  EXPECT_EQ(reason_sentence(diagnosis),
+            "The residual of joint 1 looks like that of 200 simulated replicates (p = 0.20).");
+}
+
+// a quarter of the energy between the error before and the floor: 2.7^2 - (2.7^2 - 1.1^2) / 4 = 2.40^2
+TEST(GainSentence, SaysWhereANameDoesNotBringTheUnseenErrorNearItsFloor) {
+  JointDiagnosis joint = example::invented_diagnosis().joints[0];
+  joint.validation_relerr = 0.027;
+  joint.floor_relerr = 0.011;
+  joint.augmented_validation_relerr = 0.0245;
+  EXPECT_EQ(
+      gain_sentence(joint),
+      "Validation error 2.7 % to 2.5 %, floor 1.1 %. That is less than a quarter of what replicates with these names "
+      "promise: something else is missing there.");
+  joint.augmented_validation_relerr = 0.0240;
+  EXPECT_EQ(gain_sentence(joint), "Validation error 2.7 % to 2.4 %, floor 1.1 %.");
+  // little was promised: 2.7^2 - 2.4^2 is 21 % of 2.7^2
+  joint.floor_relerr = 0.024;
+  joint.augmented_validation_relerr = 0.027;
+  EXPECT_THAT(gain_sentence(joint), Not(HasSubstr("something else")));
+}
+
+// one candidate's certainty opened the gate, and then it was refused
+TEST(ReasonSentence, OfSomethingElseInAResidualThatIsNoLargerNamesWhatWasRefused) {
+  Diagnosis diagnosis = example::invented_unexplained();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.unexplained.clear();
+  joint.omnibus_p = 1.0;
+  for (auto& candidate : joint.candidates) candidate.q = 1.0;
+  joint.candidates.push_back({"transmission_error", "order_locked", 8.2, 0.005, 1e-6});
+  joint.candidates.back().reason = "does not help on blocks it was not fitted to";
+  EXPECT_EQ(reason_sentence(diagnosis),
+            "The residual of joint 1 is no larger than that of simulated replicates (p = 1.0), but transmission_error "
+            "explains "
+            "more of it "
+            "than of theirs (beyond chance). It gets no name: does not help on blocks it was not fitted to.");
+  joint.omnibus_p = 0.01;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("is not what simulated replicates have (p = 0.010), but"));
+  joint.omnibus_p = 1.0;
+  joint.refutation = "backlash, which would explain it, does not";
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("but backlash, which would explain it, does not"));
+  joint.refutation.clear();
+  joint.candidates.back().q = 0.9;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("is not what simulated replicates have (p = 1.0), but"));
+}
+
+TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.augmented_validation_relerr = 0.041;
+  joint.floor_relerr = 0.049;
+  EXPECT_THAT(
+      reason_sentence(diagnosis),
+      HasSubstr(
+          "Validation error 12.1 % to 4.1 %, at the floor (about 4.9 %: what simulated replicates leave on average)."));
+  joint.augmented_validation_relerr = 0.0485;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
+  joint.augmented_validation_relerr = 0.0495;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
+  joint.augmented_validation_relerr = 0.052;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Validation error 12.1 % to 5.2 %, floor 4.9 %."));
+  // where the twins are louder than the recording there is none
+  joint.floor_relerr = unknown;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Validation error 12.1 % to 5.2 %."));
+}
+
+TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind) {
+  char const* said =
+      "The validation recording holds something that the training recording does not show: error 18.4 % "
+      "there, 0.82 % here.";
+  for (auto diagnosis : {example::invented_diagnosis(), example::invented_none(), example::invented_unexplained(),
+                         example::invented_data_fault()}) {
+    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
+    EXPECT_THAT(way_out_of_a_fault(diagnosis.joints[0]), HasSubstr("; the model itself needs nothing more"));
+    JointDiagnosis& joint = diagnosis.joints[0];
+    joint.train_relerr = 0.0091;
+    joint.validation_relerr = 0.185;
+    joint.augmented_train_relerr = 0.0082;
+    joint.augmented_validation_relerr = 0.184;
+    joint.floor_relerr = 0.01;
+    EXPECT_THAT(reason_sentence(diagnosis), HasSubstr(said));
+    EXPECT_THAT(way_out_of_a_fault(joint), Not(HasSubstr("needs nothing more")));
+    // what naming mends was missing in training as well; and twins that leave as much expect no less
+    joint.augmented_validation_relerr = 0.02;
+    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
+    joint.augmented_validation_relerr = 0.184;
+    joint.floor_relerr = 0.17;
+    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
+    // names that were withdrawn have no errors
+    joint.floor_relerr = 0.01;
+    joint.augmented_train_relerr = joint.augmented_validation_relerr = unknown;
+    EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("error 18.5 % there, 0.91 % here."));
+  }
+}
+
+TEST(LeftOutClause, TellsTimeEnergyAndTheErrorWithIt) {
+  LeftOut left_out{0.71, 0.98, 0.46, 0.38};
+  EXPECT_EQ(left_out_clause(left_out),
+            "71.0 % of the time with 98.0 % of the residual's energy, near reversals, at rest or outside the motion of "
+            "training, is left out of that; with it "
+            "the error is 46.0 % to 38.0 %");
+  left_out.augmented_relerr = unknown;
+  EXPECT_THAT(left_out_clause(left_out), ::testing::EndsWith("the error is 46.0 %"));
+  left_out.time = 0.0;
+  EXPECT_EQ(left_out_clause(left_out), "");
+  EXPECT_EQ(left_out_clause({}), "");
+}
+
+TEST(ReasonSentence, TellsWhatIsLeftOutBesideTheErrors) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  diagnosis.joints[0].validation_left_out = {0.12, 0.3, 0.2, 0.15};
+  EXPECT_THAT(reason_sentence(diagnosis),
+              HasSubstr("floor 6.0 %; 12.0 % of the time with 30.0 % of the residual's energy"));
+}
+
+// nothing is missing where it was looked, which is not everywhere
+TEST(ReasonSentence, OfNothingMissingSaysWhenLessThanHalfOfTheResidualWasLookedAt) {
+  Diagnosis diagnosis = example::invented_none();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.validation_left_out = {0.71, 0.98, 0.46, unknown};
+  EXPECT_THAT(reason_sentence(diagnosis),
+              ::testing::StartsWith("Only the rows that were looked at are meant, which hold less than half of the "
+                                    "residual's energy. The residual of joint 1"));
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("with it the error is 46.0 %"));
+  joint.validation_left_out.energy = 0.3;
+  EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("less than half")));
+  joint.validation_left_out = {};
+  joint.train_left_out = {0.71, 0.98, 0.46, unknown};
+  EXPECT_TRUE(looks_at_less_than_half(joint)) << "of training where nothing else was recorded";
+}
+
+}  // namespace error_words_test
+}  // namespace torquescope

@@ -1,0 +1,90 @@
+// Names that stand after simulations, from facts alone.
+
+#include "engine/infer/all_rows/loop_verdict.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace torquescope;
+
+namespace loop_verdict_test {
+
+LoopSubject key(LoopKey of) { return {nullptr, of}; }
+LoopSubject law(char const* name) { return {find_effect(name)}; }
+
+DecisionFacts scanned(std::vector<char const*> const& laws, bool has_delay) {
+  DecisionFacts facts;
+  for (auto const* name : laws) facts.accepted.push_back({find_effect(name)});
+  facts.delay.is_named = has_delay;
+  return facts;
+}
+
+KeptMove kept(LoopSubject const& subject, std::vector<LoopSubject> rivals = {}) {
+  return {subject, 50.0, 0.02, {{"number", "s", 0.02, 0.01, 0.03}}, std::move(rivals)};
+}
+
+LoopFacts simulated(std::vector<KeptMove> moves, LoopReason reason = LoopReason::decides, LoopForm form = LoopForm::p) {
+  LoopFacts facts;
+  facts.reason = reason;
+  facts.form = form;
+  facts.kept = std::move(moves);
+  return facts;
+}
+
+TEST(LoopVerdict, LeavesTheScanAloneWhereSimulationsDoNotDecide) {
+  auto const names = standing_names(scanned({"cogging"}, true),
+                                    simulated({kept(key(LoopKey::goal_speed_limit))}, LoopReason::predicts_nothing));
+  EXPECT_FALSE(names.by_loop);
+  EXPECT_EQ(names.laws, std::vector<bool>{true});
+  EXPECT_TRUE(names.has_delay);
+  EXPECT_TRUE(names.added.empty());
+}
+
+TEST(LoopVerdict, ALawThatTheSimulationDoesNotBearOutIsNoName) {
+  auto const names = standing_names(scanned({"cogging", "spring"}, false),
+                                    simulated({kept(key(LoopKey::goal_speed_limit)), kept(law("spring"))}));
+  EXPECT_EQ(names.laws, (std::vector<bool>{false, true}));
+  ASSERT_EQ(names.added.size(), 1u);
+  EXPECT_EQ(name_of(names.added[0].subject), "goal_speed_limit");
+}
+
+TEST(LoopVerdict, ALawThatCannotBeToldFromAKeptOneStands) {
+  auto const names = standing_names(scanned({"cogging"}, false), simulated({kept(law("spring"), {law("cogging")})}));
+  EXPECT_EQ(names.laws, std::vector<bool>{true});
+  EXPECT_TRUE(names.added.empty());
+}
+
+TEST(LoopVerdict, ADelayOfTheCommandIsTheScansDelay) {
+  for (bool const named : {false, true}) {
+    auto const names = standing_names(scanned({}, named), simulated({kept(key(LoopKey::command_delay_s))}));
+    EXPECT_TRUE(names.has_delay);
+    EXPECT_TRUE(names.added.empty());
+    ASSERT_TRUE(names.command_delay);
+    EXPECT_EQ(names.command_delay->value, 0.02);
+  }
+}
+
+TEST(LoopVerdict, ADelayInTheClassOfALimitIsNoNameOfItsOwn) {
+  auto const names = standing_names(scanned({}, true),
+                                    simulated({kept(key(LoopKey::goal_speed_limit), {key(LoopKey::command_delay_s)})}));
+  EXPECT_FALSE(names.has_delay);
+  ASSERT_EQ(names.added.size(), 1u);
+}
+
+TEST(LoopVerdict, ALawOfAClockFallsOnlyToTheCommandSide) {
+  auto const scan = scanned({"friction_drift"}, false);
+  EXPECT_TRUE(standing_names(scan, simulated({})).laws[0]);
+  EXPECT_FALSE(standing_names(scan, simulated({kept(key(LoopKey::goal_speed_limit))})).laws[0]);
+}
+
+TEST(LoopVerdict, ADelayThatNoSimulationBearsOutIsNone) {
+  EXPECT_FALSE(standing_names(scanned({}, true), simulated({})).has_delay);
+  // an identified law was never asked
+  EXPECT_TRUE(standing_names(scanned({}, true), simulated({}, LoopReason::decides, LoopForm::identified)).has_delay);
+}
+
+TEST(LoopVerdict, NothingIsLeftOfNothing) {
+  EXPECT_FALSE(standing_names(scanned({"cogging"}, true), simulated({})).any());
+  EXPECT_TRUE(standing_names(scanned({"cogging"}, false), simulated({}, LoopReason::no_reference)).any());
+}
+
+}  // namespace loop_verdict_test
