@@ -60,11 +60,16 @@ Error cannot_write(fs::path const& name, int error_number, std::uintmax_t needed
   return Error(problem);
 }
 
+Error no_such_result(fs::path const& name) {
+  return Error(Problem{.code = ExitCode::no_input,
+                       .what = "there is no file " + name.string(),
+                       .help = fmt::format("torquescope run JOB.toml --out {} makes a result of a fit; diagnose and "
+                                           "replay, in place of run, make theirs",
+                                           name.string())});
+}
+
 Error cannot_read(fs::path const& name, int error_number) {
-  if (error_number == ENOENT)
-    return Error(Problem{.code = ExitCode::no_input,
-                         .what = "there is no file " + name.string(),
-                         .help = "torquescope run JOB.toml --out " + name.string() + " makes it"});
+  if (error_number == ENOENT) return no_such_result(name);
   return Error(Problem{.code = ExitCode::io,
                        .what = fmt::format("cannot read {}: {}", name.string(), reason_of(error_number)),
                        .help = "check the disk, then run the same command again; nothing was changed"});

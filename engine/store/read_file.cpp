@@ -15,12 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error no_such_file(fs::path const& path) {
-  return Error(Problem{.code = ExitCode::no_input,
-                       .what = "there is no file " + path.string(),
-                       .help = "torquescope run JOB.toml --out " + path.string() + " makes it"});
-}
-
 Error not_a_file(fs::path const& path) {
   return Error(
       Problem{.code = ExitCode::bad_data, .what = path.string() + " is not a file", .help = "name a result file"});
@@ -35,11 +29,11 @@ ReadFile::ReadFile(FilePlace const& place) : path_(place.path), descriptor_(-1) 
   // before it is opened: a pipe would hang, a device could do anything
   int const link_flag = place.is_in_open_folder() ? AT_SYMLINK_NOFOLLOW : 0;
   if (::fstatat(place.folder, place.name.c_str(), &facts, link_flag) != 0)
-    throw means_absent(errno) ? no_such_file(path_) : cannot_read(path_, errno);
+    throw means_absent(errno) ? no_such_result(path_) : cannot_read(path_, errno);
   if (!S_ISREG(facts.st_mode)) throw not_a_file(path_);
   int const flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | (place.is_in_open_folder() ? O_NOFOLLOW : 0);
   descriptor_ = unless_interrupted([&] { return ::openat(place.folder, place.name.c_str(), flags); });
-  if (descriptor_ < 0) throw means_absent(errno) ? no_such_file(path_) : cannot_read(path_, errno);
+  if (descriptor_ < 0) throw means_absent(errno) ? no_such_result(path_) : cannot_read(path_, errno);
   // another one may have got its name meanwhile
   bool const is_file = ::fstat(descriptor_, &facts) == 0 && S_ISREG(facts.st_mode);
   if (!is_file) {
