@@ -17,10 +17,10 @@ using Eigen::VectorXd;
 
 // "12 to 1.7 %" of the joint that gains most
 std::string gain_words(VectorXd const& before, VectorXd const& after, std::vector<std::string> const& names) {
-  Index most = 0;
-  (before.array() / after.array().max(SetupFit::floor)).maxCoeff(&most);
-  return fmt::format("{} {:.3g} to {:.2g} %", joint_title(static_cast<std::size_t>(most), names), 100.0 * before[most],
-                     100.0 * after[most]);
+  Index gains_most = 0;
+  (before.array() / after.array().max(SetupFit::floor)).maxCoeff(&gains_most);
+  return fmt::format("{} {:.3g} to {:.2g} %", joint_title(static_cast<std::size_t>(gains_most), names),
+                     100.0 * before[gains_most], 100.0 * after[gains_most]);
 }
 
 std::string what(SetupChange const& change, std::vector<std::string> const& names) {
@@ -61,7 +61,7 @@ std::string what(SetupChange const& change, std::vector<std::string> const& name
   return fmt::format("the zero of {} lies {:.3g} rad beside that of the robot file", joint, -change.number);
 }
 
-std::string list_of(VectorXd const& numbers) {
+std::string written_list(VectorXd const& numbers) {
   std::vector<std::string> texts;
   for (double const number : numbers) texts.push_back(fmt::format("{:.4g}", number == 0.0 ? 0.0 : number));
   return fmt::format("[{}]", fmt::join(texts, ", "));
@@ -152,7 +152,7 @@ std::optional<Finding> late_torques(Experiment::Parts const& parts, RecordingOpt
     double& delay = delays[static_cast<Index>(one.joint)];
     delay = std::round(digits * (delay - one.seconds)) / digits;
   }
-  finding.line_to_write = "delay_s = " + list_of(delays);
+  finding.line_to_write = "delay_s = " + written_list(delays);
   return finding;
 }
 
@@ -189,13 +189,13 @@ std::string setup_lines(ArmSetup const& setup, SerialChain const& chain, Recordi
   }
   std::vector<std::string> lines;
   if (setup.position_of != as_read.position_of)
-    lines.push_back("position_order = " + list_of(order_of(options.position_order, setup.position_of)));
+    lines.push_back("position_order = " + written_list(order_of(options.position_order, setup.position_of)));
   if (setup.torque_of != as_read.torque_of)
-    lines.push_back("torque_order = " + list_of(order_of(options.torque_order, setup.torque_of)));
-  if (sign != signs) lines.push_back("joint_sign = " + list_of(sign));
-  if (zero != zeros) lines.push_back("zero = " + list_of(zero));
-  if (torque != torques) lines.push_back("torque_per_unit = " + list_of(torque));
-  if (delay != delays) lines.push_back("delay_s = " + list_of(delay));
+    lines.push_back("torque_order = " + written_list(order_of(options.torque_order, setup.torque_of)));
+  if (sign != signs) lines.push_back("joint_sign = " + written_list(sign));
+  if (zero != zeros) lines.push_back("zero = " + written_list(zero));
+  if (torque != torques) lines.push_back("torque_per_unit = " + written_list(torque));
+  if (delay != delays) lines.push_back("delay_s = " + written_list(delay));
   VectorXd const units = setup.position_factor.cwiseAbs();
   if (units.minCoeff() != 1.0 || units.maxCoeff() != 1.0)
     lines.push_back(units.minCoeff() == units.maxCoeff()
@@ -203,7 +203,7 @@ std::string setup_lines(ArmSetup const& setup, SerialChain const& chain, Recordi
                         : "bring all position columns into one unit");
   if (setup.chain.gravity != chain.gravity) {
     Eigen::Vector3d const gravity = setup.chain.base.rotation * setup.chain.gravity;
-    lines.push_back("[model] gravity = " + list_of((gravity.array().abs() < 1e-9).select(0.0, gravity)));
+    lines.push_back("[model] gravity = " + written_list((gravity.array().abs() < 1e-9).select(0.0, gravity)));
   }
   if (setup.is_of_other_convention)
     lines.push_back(fmt::format("convention = \"{}\" in [robot] of the robot file", otherwise));
