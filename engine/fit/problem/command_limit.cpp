@@ -25,6 +25,10 @@ constexpr double error_falls = 1.5, about_one = 0.2;
 // convention: share of what kinks at three levels explain that the limit alone must
 constexpr double alone = 0.9;
 
+// convention: share (rms) of what is asked beyond the limit that the motion must leave. A model with many columns
+// explains any part of a measured torque nearly as well as the whole; the motion knows nothing of what never acted
+constexpr double least_foreign = 0.1;
+
 enum Side { up, down };
 
 // what is asked for beyond a level, which is infinite where that side has no limit
@@ -162,17 +166,25 @@ double energy_of_more_kinks(Scan const& scan, Kinks const& kinks, VectorXd const
   return energy_within(left, columns);
 }
 
+bool is_foreign_to_the_motion(TorqueBesideMotion const& beside, VectorXd const& torque, Kinks const& found,
+                              VectorXd const& explained) {
+  VectorXd const asked = beside.filtered(beyond(torque, up, found.upper) + beyond(torque, down, found.lower));
+  return explained.norm() >= least_foreign * asked.norm();
+}
+
 Index count_beyond(VectorXd const& torque, Kinks const& found) {
   return (torque.array() > found.upper).count() + (torque.array() < found.lower).count();
 }
 
-bool is_limit(Scan const& scan, Kinks const& found, VectorXd const& torque, VectorXd const& left) {
+bool is_limit(TorqueBesideMotion const& beside, Scan const& scan, Kinks const& found, VectorXd const& torque) {
+  VectorXd const& left = beside.left();
   if (static_cast<double>(count_beyond(torque, found)) > most_beyond * static_cast<double>(torque.size())) return false;
   double const all = left.squaredNorm(), after = std::max(all - found.energy, 0.0);
   if (!(std::sqrt(all) >= error_falls * std::sqrt(after))) return false;
   MatrixXd const columns = columns_at(scan, found, left.size());
   VectorXd const factors = solve_pivoted(columns, left);
   if (!((factors.array() - 1.0).abs() <= about_one).all()) return false;
+  if (!is_foreign_to_the_motion(beside, torque, found, columns * factors)) return false;
   // of the largest among as many levels as were tried
   double const chance =
       levels::chi_squared_beyond_chance + 2.0 * std::log(static_cast<double>(levels_tried * levels_tried));
@@ -196,7 +208,7 @@ std::optional<CommandLimit> command_limit(TorqueBesideMotion const& beside, Vect
     Kinks const found = scanned(scan, sorted, sides);
     of_both = std::max(of_both, found.energy);
     if (found.energy < alone * of_both) continue;  // a limit on one side leaves nothing to the other
-    if (!is_limit(scan, found, torque, left)) continue;
+    if (!is_limit(beside, scan, found, torque)) continue;
     CommandLimit limit;
     if (std::isfinite(found.upper)) limit.upper = found.upper;
     if (std::isfinite(found.lower)) limit.lower = found.lower;
