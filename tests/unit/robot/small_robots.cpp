@@ -143,7 +143,8 @@ std::string seven_joint_mjcf() {
         k % 2 + 1);
     close += "</body>\n";
   }
-  return "<mujoco model=\"seven\">\n<compiler autolimits=\"true\"/>\n<default>\n<default class=\"iiwa\">\n<joint axis=\"0 0 1\" damping=\"1\"/>\n"
+  return "<mujoco model=\"seven\">\n<compiler autolimits=\"true\"/>\n<default>\n"
+         "<default class=\"iiwa\">\n<joint axis=\"0 0 1\" damping=\"1\"/>\n"
          "<default class=\"joint1\"><joint range=\"-170 170\"/></default>\n"
          "<default class=\"joint2\"><joint range=\"-120 120\"/></default>\n</default>\n</default>\n"
          "<worldbody>\n<body name=\"base\" childclass=\"iiwa\">\n" +
