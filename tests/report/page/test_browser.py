@@ -94,6 +94,9 @@ return {small, outside, overlapping, empty, tainted, figures: document.querySele
 class Page(browser.Browser):
     def test_figures_are_complete_and_readable_at_every_width_and_theme(self):
         for kind, width in itertools.product(KINDS, WIDTHS):
+            # the other kinds each have the narrowest and the widest every time, and all widths in full
+            if width == 800 and not support.FULL and kind not in ("named", "arm"):
+                continue
             self.open(kind, width)
             for theme in THEMES:  # the reader's system changes it under an open page
                 self.media(theme)
