@@ -8,8 +8,14 @@
 
 namespace torquescope {
 
+double value_of_chance(std::vector<double> values, double alpha) {
+  std::sort(values.begin(), values.end());
+  auto const place = static_cast<std::size_t>(std::ceil((1.0 - alpha) * static_cast<double>(values.size() + 1)));
+  return values[std::min(values.size(), std::max<std::size_t>(1, place)) - 1];
+}
+
 void Chance::add(Eigen::MatrixXd const& further) {
-  if (gains.size() == 0) {
+  if (gains.cols() == 0) {
     gains = further;
     return;
   }
@@ -35,6 +41,7 @@ Eigen::VectorXd Chance::relative(Eigen::VectorXd const& gains_of_recording) cons
 
 Eigen::VectorXd Chance::p(Eigen::VectorXd const& gains_of_recording) const {
   TORQUESCOPE_EXPECT(gains.cols() > 1 && gains_of_recording.size() == gains.rows());
+  if (gains.rows() == 0) return {};
   auto const all = largest();
   Eigen::VectorXd const here = relative(gains_of_recording);
   Eigen::VectorXd p(gains.rows());
@@ -45,27 +52,16 @@ Eigen::VectorXd Chance::p(Eigen::VectorXd const& gains_of_recording) const {
   return p;
 }
 
-namespace {
-
-// the smallest of them that a share alpha does not exceed
-double upper(std::vector<double> values, double alpha) {
-  std::sort(values.begin(), values.end());
-  auto const place = static_cast<std::size_t>(std::ceil((1.0 - alpha) * static_cast<double>(values.size() + 1)));
-  return values[std::min(values.size(), std::max<std::size_t>(1, place)) - 1];
-}
-
-}  // namespace
-
 Eigen::VectorXd Chance::needed(double alpha) const {
-  TORQUESCOPE_EXPECT(gains.cols() > 1);
-  return (1.0 + gains.rowwise().mean().array()) * upper(largest(), alpha);
+  TORQUESCOPE_EXPECT(gains.cols() > 1 && gains.rows() > 0);
+  return (1.0 + gains.rowwise().mean().array()) * value_of_chance(largest(), alpha);
 }
 
 Eigen::VectorXd Chance::level(double alpha) const {
   Eigen::VectorXd level(gains.rows());
   for (Eigen::Index law = 0; law < level.size(); ++law) {
     Eigen::VectorXd const of_law = gains.row(law).transpose();
-    level[law] = upper({of_law.begin(), of_law.end()}, alpha);
+    level[law] = value_of_chance({of_law.begin(), of_law.end()}, alpha);
   }
   return level;
 }

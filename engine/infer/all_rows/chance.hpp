@@ -15,6 +15,10 @@
 
 namespace torquescope {
 
+// the smallest of them that a share alpha does not exceed; values: at least one
+double value_of_chance(std::vector<double> values, double alpha);
+
+// laws: none where a catalogue is used up
 struct Chance {
   Eigen::MatrixXd gains{};
 

@@ -114,7 +114,8 @@ class Search {
   bool step(bool of_clock) {
     FoldKind const kind = of_clock ? FoldKind::interleaved : FoldKind::whole;
     auto questions = law_questions(laws_to_ask(of_clock), scales(), shortest_way());
-    if (questions.empty()) return false;
+    if (questions.empty() && (of_clock || accepted_.empty()))
+      return false;  // a model with laws is still asked for more
     tell("search", 0, questions.size());
     FittedStrips const& recording = *result_.final.fitted;
     Score const score(recording.base(), recording.residual(), recording.guard());
@@ -145,7 +146,7 @@ class Search {
                     null.source,
                     of_clock,
                     false,
-                    visible_share(null.chance, score, kind),
+                    visible_share(null, score, kind),
                     std::sqrt(recording.chosen().fit.energy() / rows().training_energy),
                     {correction.axis, correction.gain, empirical_p(correction.gain, null.corrections),
                      correction.rms / rows().torque_rms()}};
@@ -216,8 +217,12 @@ class Search {
   }
 
   // the torque of a law of which as many laws as not would come out: S_0 falls by D / n_eff in its logarithm
-  double visible_share(Chance const& chance, Score const& score, FoldKind kind) const {
-    Eigen::VectorXd needed = chance.needed(q_.numbers.alpha);
+  // Where no law is left, smooth functions tell
+  double visible_share(ReplicateGains const& null, Score const& score, FoldKind kind) const {
+    Eigen::VectorXd needed =
+        null.chance.gains.rows() > 0
+            ? null.chance.needed(q_.numbers.alpha)
+            : Eigen::VectorXd::Constant(1, value_of_chance(null.corrections, q_.numbers.correction_alpha()));
     std::nth_element(needed.begin(), needed.begin() + needed.size() / 2, needed.end());
     Eigen::VectorXd const left = score.left_on_rows_with({}, 0, kind);
     double const fall = std::expm1(needed[needed.size() / 2] / effective_samples(left));

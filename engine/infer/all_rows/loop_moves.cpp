@@ -54,11 +54,6 @@ std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regr
   for (auto const& step : scan.steps)
     for (auto const& law : step.laws)
       if (law.p <= numbers.alpha) add(law.effect, law.shape);
-  // the rows may be blind to what a simulation shows: where few are left, those that gain most
-  constexpr std::size_t fewest = 3;
-  if (!scan.steps.empty())
-    for (auto const& law : scan.steps.front().laws)
-      if (moves.size() < fewest && law.gain > 0.0) add(law.effect, law.shape);
   return moves;
 }
 

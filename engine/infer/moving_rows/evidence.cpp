@@ -187,7 +187,7 @@ LawGain Evidence::gain_in_training(Candidate const& candidate, Eigen::MatrixXd i
 std::vector<Eigen::MatrixXd> Evidence::columns_unseen(Effect const& effect,
                                                       std::vector<std::vector<double>> const& shapes, LawRate rate,
                                                       UnseenEvidence const& there) {
-  if (carry_over(effect) == CarryOver::none) {
+  if (CarryOver const over = carry_over(effect); over == CarryOver::none || over == CarryOver::in_frequency) {
     auto const width = static_cast<Eigen::Index>(effect.n_linear());
     return std::vector<Eigen::MatrixXd>(shapes.size(), Eigen::MatrixXd::Zero(there.nuisance.rows(), width));
   }

@@ -101,7 +101,7 @@ Eigen::VectorXd offset_direction(ModelStage const& stage, RecordPipeline const& 
   return length > 0.0 ? Eigen::VectorXd(ones.col(0) / length) : Eigen::VectorXd();
 }
 
-// the record's offset, and what laws that run down do here
+// the record's offset, what laws that run down do here, and waves per second, of any size and phase
 Eigen::MatrixXd own_nuisances(ModelStage const& stage, UnseenEvidence const& of, std::size_t without) {
   Eigen::MatrixXd own(of.comparison->rows.size(), 0);
   auto const add = [&](Eigen::VectorXd direction) {
@@ -113,9 +113,15 @@ Eigen::MatrixXd own_nuisances(ModelStage const& stage, UnseenEvidence const& of,
     own.rightCols(1) = direction.normalized();
   };
   if (of.offset.size() > 0) add(of.offset);
-  for (std::size_t i = 0; i < stage.model().effects().size(); ++i)
-    if (i != without && carry_over(*stage.model().effects()[i].effect) == CarryOver::in_part)
-      add(torque_of(stage, *of.columns, i));
+  for (std::size_t i = 0; i < stage.model().effects().size(); ++i) {
+    auto const& [effect, shape] = stage.model().effects()[i];
+    CarryOver const over = carry_over(*effect);
+    if (i == without) continue;
+    if (over == CarryOver::in_part) add(torque_of(stage, *of.columns, i));
+    if (over != CarryOver::in_frequency) continue;
+    Eigen::MatrixXd const wave = of.columns->columns(*effect, shape);
+    for (Eigen::Index k = 0; k < wave.cols(); ++k) add(wave.col(k));
+  }
   return own;
 }
 

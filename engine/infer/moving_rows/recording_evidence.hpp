@@ -5,8 +5,8 @@
 //            mean, scaled so that all columns have the same variance when the model is right
 // Training   residuals of the fit; nuisance columns (model and tangents of its shapes) are fitted with every candidate
 // Unseen     residuals of the prediction by the fit of training (a replicate's: by the fit of its training replicate),
-//            whitened as training is; a record's own offset, and shares of laws that run down (CarryOver::in_part),
-//            are nuisances of the record and are taken out of all signals
+//            whitened as training is; a record's own offset, shares of laws that run down (CarryOver::in_part) and
+//            waves per second (in_frequency) are nuisances of the record and are taken out of all signals
 // Shapes     n rows, M replicates: n x (M + 1)
 // Errors     none: a recording whose replicates cannot be made gives no evidence; what is left of it is known all the
 //            same

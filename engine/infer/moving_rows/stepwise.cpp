@@ -42,6 +42,7 @@ class Search {
     if (options_.only_a_mismatch && result_.end().adequacy.holds()) return std::move(result_);
     while (!is_enough() && step(laws_of(options_.candidates, false), FoldKind::whole)) {
     }
+    if (!is_enough() && leaves_most()) try_from_the_baseline();
     if (!is_enough()) try_clock_bound();
     return std::move(result_);
   }
@@ -287,6 +288,26 @@ class Search {
       weakest = i;
     }
     return weakest;
+  }
+
+  // of what the baseline lacks, where laws were taken
+  bool leaves_most() const {
+    Selection const& selection = result_.end().selection;
+    double const left = selection.final->energy.excess / selection.energy_unit;
+    return !selection.accepted.empty() && left > (1.0 - most_of_it) * selection.first_excess;
+  }
+
+  // Laws of the motion that explain little stand in the way of one of a clock that explains all: whatever is left of
+  // it looks a little like many of them
+  void try_from_the_baseline() {
+    std::vector<SearchState> of_the_motion = result_.states;
+    auto const weights = setting().weights;
+    result_.states.resize(1);
+    setting().weights = result_.end().selection.final->pipeline->weights();
+    try_clock_bound();
+    if (is_enough()) return;
+    result_.states = std::move(of_the_motion);
+    setting().weights = weights;
   }
 
   // Laws of an instant or a clock stay only where they make the model adequate. On the short folds that they need laws

@@ -5,7 +5,8 @@
 //            with the largest gain; of those that no paired test tells from it the one with fewest parameters
 // Then       laws whose removal does not raise D beyond chance are dropped
 // Phases     laws of the motion until none is left; clock-bound laws (effects/carry_over.hpp) after them, and only
-//            while the model is not adequate; they stay only when it is adequate with them
+//            while the model is not adequate; they stay only when it is adequate with them. Where laws of the motion
+//            leave most of the mismatch, clock-bound laws are first asked without them
 // Threads    as the stages
 // Source     engine/infer/moving_rows/THEORY.md, The search
 

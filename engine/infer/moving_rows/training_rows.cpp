@@ -95,7 +95,7 @@ std::vector<Eigen::MatrixXd> TrainingRows::columns_of_each(Effect const& effect,
     law.conservativeResize(basis_.rows(), Eigen::NoChange);
     law.bottomRows(basis_.rows() - first).setZero();
   }
-  if (carry_over(effect) == CarryOver::none || carry_over(effect) == CarryOver::in_part) return each;
+  if (is_clock_bound(effect)) return each;
   for (std::size_t i = 0; i < further_.size(); ++i) {
     auto const here = further_[i].columns->columns_of_each(effect, shapes, rate);
     RowBlock const rows = recordings_[i + 1].rows;

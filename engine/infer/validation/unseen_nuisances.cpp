@@ -27,13 +27,13 @@ bool gains_beyond_chance(Eigen::Ref<Eigen::VectorXd const> const& head, double l
 }
 
 // Where a counter begins to count is another place in each recording: a wave keeps its size and order and may turn its
-// phase, to the one that fits the head best, when that is beyond chance.
-bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen::Ref<Eigen::VectorXd> amplitudes) {
+// phase, to the one that fits the head best, when that is beyond chance. left: beside the wave as it is now
+bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, double size,
+                Eigen::Ref<Eigen::VectorXd> amplitudes) {
   constexpr int directions = 360;
   Eigen::Index const n = head_rows(left.size());
   Eigen::MatrixXd const head = wave.topRows(n);
   Eigen::VectorXd const wanted = left.head(n) + head * amplitudes;
-  double const size = amplitudes.norm();
   Eigen::Vector2d best = amplitudes;
   double least = left.head(n).squaredNorm();
   for (int k = 0; k < directions; ++k) {
@@ -49,15 +49,20 @@ bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen:
   return true;
 }
 
+// A wave per second may be there or not: it begins at nothing, one over a counter at what it was
 void turn_waves(ModelStage const& stage, ProcessedRecord const& record, Eigen::VectorXd& parameters,
                 std::vector<std::string>& nuisances) {
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (carry_over(*effects[i].effect) != CarryOver::with_another_phase) continue;
+    CarryOver const over = carry_over(*effects[i].effect);
+    if (over != CarryOver::with_another_phase && over != CarryOver::in_frequency) continue;
     auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
     Eigen::VectorXd const left = record.torque - record.columns * parameters;
-    if (turn_phase(record.columns.middleCols(first, 2), left, parameters.segment(first, 2)))
+    double const size = stage.estimate().segment(first, 2).norm();
+    if (turn_phase(record.columns.middleCols(first, 2), left, size, parameters.segment(first, 2)))
       nuisances.push_back("phase of " + effects[i].effect->name() + " refitted on the first 5 %");
+    else if (over == CarryOver::in_frequency)
+      nuisances.push_back(effects[i].effect->name() + " left out: the first 5 % do not show it");
   }
 }
 
@@ -90,7 +95,6 @@ void scale_clocks(ModelStage const& stage, ProcessedRecord const& record, Eigen:
 
 char const* why_left_out(Effect const& effect) {
   if (effect.is_event()) return " left out: its instant belongs to the training recording";
-  if (effect.is_wave()) return " left out: its phase belongs to the clock of the training recording";
   return " left out: where a channel's zero goes is another in each recording";
 }
 
@@ -101,12 +105,13 @@ Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& 
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
     Effect const& effect = *effects[i].effect;
-    if (carry_over(effect) != CarryOver::none) continue;
+    CarryOver const over = carry_over(effect);
+    if (over != CarryOver::none && over != CarryOver::in_frequency) continue;
     parameters
         .segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
                  static_cast<Eigen::Index>(effect.n_linear()))
         .setZero();
-    nuisances.push_back(effect.name() + why_left_out(effect));
+    if (over == CarryOver::none) nuisances.push_back(effect.name() + why_left_out(effect));
   }
   return parameters;
 }

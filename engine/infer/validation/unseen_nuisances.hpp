@@ -14,8 +14,8 @@
 
 namespace torquescope {
 
-// the parameters a prediction begins with: those of laws that say nothing of another recording (CarryOver::none) are
-// zero, and what was done is said in `nuisances`
+// the parameters a prediction begins with: those of laws that say nothing of another recording (CarryOver::none) and of
+// waves per second are zero, and what was done is said in `nuisances`
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances);
 
 // phases of waves, and how far what runs with the clock had gone; record: of validation, for that model

@@ -16,8 +16,7 @@ CarryOver of(std::string const& name) {
 }
 
 TEST(CarriedOver, WholeAreLawsOfTheMotion) {
-  for (auto const* name : {"spring", "stribeck", "delay", "presliding"})
-    EXPECT_EQ(of(name), CarryOver::whole) << name;
+  for (auto const* name : {"spring", "stribeck", "delay", "presliding"}) EXPECT_EQ(of(name), CarryOver::whole) << name;
 }
 
 TEST(CarriedOver, AWaveOverTheTravelMayTurnItsPhase) { EXPECT_EQ(of("cogging"), CarryOver::with_another_phase); }
@@ -25,14 +24,16 @@ TEST(CarriedOver, AWaveOverTheTravelMayTurnItsPhase) { EXPECT_EQ(of("cogging"), 
 TEST(CarriedOver, FrictionThatRunsDownIsCarriedInPart) { EXPECT_EQ(of("thermal_friction"), CarryOver::in_part); }
 
 TEST(CarriedOver, NothingOfAnInstantAClockOrADriftingChannel) {
-  for (auto const* name : {"contact", "payload_change", "periodic_disturbance", "sensor_drift"})
-    EXPECT_EQ(of(name), CarryOver::none) << name;
+  for (auto const* name : {"contact", "payload_change", "sensor_drift"}) EXPECT_EQ(of(name), CarryOver::none) << name;
 }
 
-TEST(CarriedOver, OnlyInPartOrNotAtAllIsClockBound) {
+TEST(CarriedOver, AWavePerSecondKeepsItsFrequency) { EXPECT_EQ(of("periodic_disturbance"), CarryOver::in_frequency); }
+
+TEST(CarriedOver, WhatIsCarriedWholeOrOverACounterIsNotOfAClock) {
   for (auto const* effect : effect_choices()) {
     CarryOver const over = carry_over(*effect);
-    EXPECT_EQ(is_clock_bound(*effect), over == CarryOver::in_part || over == CarryOver::none) << effect->name();
+    EXPECT_EQ(is_clock_bound(*effect), over != CarryOver::whole && over != CarryOver::with_another_phase)
+        << effect->name();
   }
 }
 
