@@ -137,8 +137,8 @@ def weighted(rows, turns=30):
 
 
 def parts_of(job, folder):
-    """The robot's model, and rows of each joint by whatever makes the columns: training and unseen ones that move one
-    way, all unseen ones."""
+    """The robot's model, and rows of each joint by whatever makes the columns: training and validation ones that move
+    one way, all validation ones."""
     with open(JOBS / job["model"]["robot"], "rb") as file:
         model, offset = chain(tomllib.load(file))
     listed = lambda key: [value] if isinstance(value := job["recording"].get(key, []), str) else value

@@ -1,5 +1,5 @@
-"""Diagnoses of a simulated joint, 1 kHz, 200 twins, two threads, and of a real arm: seconds by the clock beside the
-goal, and memory.
+"""Diagnoses of a simulated joint, 1 kHz, 200 replicates, two threads, and of a real arm: seconds by the clock beside
+the goal, and memory.
 
 The arm is left out where there is no recording of it (jobs/README.md says where to get one).
 """

@@ -1,4 +1,4 @@
-"""Real arms identified by us beside Pinocchio with numpy, and FIGAROH: the error on unseen rows, and the CPU seconds.
+"""Real arms identified by us beside Pinocchio with numpy, and FIGAROH: the error on validation rows, and CPU seconds.
 
 Recordings are not ours to copy: jobs/README.md says where to get them.
 """

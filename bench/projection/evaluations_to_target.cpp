@@ -1,4 +1,4 @@
-// Evaluations until the law of a missing effect is found: projected searches against searches in all parameters.
+// Evaluations until a missing effect is found: projected searches against searches in all parameters.
 //
 // Problems   one planted mismatch per effect and recording (tests/science/projection), baseline of four parameters;
 //            left out where the best lies outside the box of the search in all parameters

@@ -11,7 +11,7 @@
 namespace torquescope {
 
 // "Named at joint 2 (load dependent friction) and joint 3 (stribeck); unexplained at joint 1; nothing missing at joints
-// 4, 5 and 6. Unseen relerr over all joints 4.5 % to 2.1 %."
+// 4, 5 and 6. Validation relerr over all joints 4.5 % to 2.1 %."
 std::string arm_reason_sentence(Diagnosis const& diagnosis);
 
 // "From 9.0 s of monday.csv on all joints feel a payload of the last link, picked up or put down (payload_mass 1.2 kg):
@@ -20,8 +20,8 @@ struct WholeArmFacts {
   std::string recording{};
   double from_s = 0.0, until_s = 0.0;              // until: infinite where it acts to the end
   double before = 0.0, after = 0.0;                // relerr on rows left out
-  double unseen_before = 0.0, unseen_after = 0.0;  // 0: it acts in no unseen recording
-  // of an event: where it acts in unseen recordings
+  double unseen_before = 0.0, unseen_after = 0.0;  // 0: it acts in no validation recording
+  // of an event: where it acts in validation recordings
   struct There {
     std::string recording{};
     double from_s = 0.0, until_s = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
-// What the errors of a diagnosis say, as sentences: what naming brings, how near the floor, whether an unseen recording
-// is of another kind, and whether the residual is like that of clean twins.
+// What the errors of a diagnosis say, as sentences: what naming brings, how near the floor, whether validation
+// is of another kind, and whether the residual is like that of replicates.
 //
 // Unknown    a sentence whose numbers were not measured is ""
 // Wording    as sentences.hpp
@@ -12,8 +12,8 @@
 
 namespace torquescope {
 
-// ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, for it is a mean over twins; what is below it has
-// some twins below it as well (unseen_floor.hpp), and is told what the floor is; "" where none is known
+// ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, a mean over replicates; what is below it has
+// some replicates below it as well (unseen_floor.hpp), and is told what the floor is; "" where none is known
 std::string floor_words(double relerr, double floor);
 
 // What the mask leaves out, and the error with it: "71 % of the time with 98 % of the residual's energy, near reversals
@@ -21,11 +21,11 @@ std::string floor_words(double relerr, double floor);
 std::string left_out_clause(LeftOut const& left_out);
 
 // "Validation error 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded. Where the
-// unseen error stays far above its floor whatever was named, that is said
+// validation error stays far above its floor whatever was named, that is said
 std::string gain_sentence(JointDiagnosis const& joint);
 
-// An unseen error beyond three times and three points above both the error in training and the floor of the unseen
-// recording, before and after alike: "The unseen recording holds something that the training recording does not show:
+// A validation error beyond three times and three points above both the error in training and the floor of the unseen
+// recording, before and after: "The unseen recording holds something that the training recording does not show:
 // relerr 18.4 % there, 0.82 % here."; "" otherwise
 std::string unseen_is_other_sentence(JointDiagnosis const& joint);
 
@@ -38,10 +38,10 @@ std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const
 std::string way_out_of_a_fault(JointDiagnosis const& joint);
 
 // Of a joint with a closed gate. Where p is small, what kept it closed is said: a mismatch below what matters, or one
-// that is within the twins' spread while no effect stands out
+// that is within the replicates' spread while no effect stands out
 std::string likeness_sentence(JointDiagnosis const& joint);
 
-// Of a joint with an open gate whose map shows nothing: what it is that twins do not have, the whole or what one
+// Of a joint with an open gate whose map shows nothing: what it is that replicates do not have, the whole or what one
 // candidate would make. nothing_fits: a clause
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
 

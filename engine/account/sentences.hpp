@@ -19,7 +19,7 @@ namespace torquescope {
 std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effect);
 
 // of the whole verdict: the effects' sentences and what naming them brings (error_words.hpp); what is left when nothing
-// is named; what to do when the recording cannot tell; whether the unseen recording is of another kind
+// is named; what to do when the recording cannot tell; whether the validation recording is of another kind
 std::string reason_sentence(Diagnosis const& diagnosis);
 
 // the same with what the motion closed or merged, and what was not recorded

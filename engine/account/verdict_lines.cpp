@@ -143,7 +143,7 @@ std::string what_of(Diagnosis const& diagnosis, JointDiagnosis const& joint, Ver
   return joint.effects.empty() ? without_full_stop(diagnosis.reason) : named_text(joint, three);
 }
 
-// "at joint 2 and joint 3", of an arm without a law of the whole
+// "at joint 2 and joint 3", of an arm without an effect of the whole
 std::string where_missing(std::vector<JointDiagnosis> const& joints) {
   std::vector<std::string> names;
   for (auto const& joint : joints)

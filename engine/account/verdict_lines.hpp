@@ -25,7 +25,7 @@ struct VerdictLines {
 // verdict: of the joint, or of the whole diagnosis where it has one joint
 VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joint, Verdict verdict);
 
-// of an arm: the laws of the whole, and the error over all joints and samples
+// of an arm: the effects of the whole, and the error over all joints and samples
 VerdictLines arm_lines(Diagnosis const& diagnosis);
 
 // what of the whole diagnosis, in one line: what terminal, JSON and page begin with

@@ -11,8 +11,8 @@
 
 namespace torquescope {
 
-// because of unseen recordings: "backlash, which would explain it, takes the validation error from
-// 2.2 % to 2.5 %, where twins with it promise 1.6 %", or "and a joint simulated with it no longer follows the
+// because of validation recordings: "backlash, which would explain it, takes the validation error from
+// 2.2 % to 2.5 %, where replicates with it promise 1.6 %", or "and a joint simulated with it no longer follows the
 // reference"
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away);
 // because hardly anything is won: "cogging takes the validation error from 2.22 % to 2.14 %: too little ..."

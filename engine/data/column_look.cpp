@@ -1,8 +1,9 @@
 #include "engine/data/column_look.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 namespace {
@@ -76,7 +77,7 @@ double explained(ArrayXd const& signal, Motion3 const& motion) {
     if (size > 0) columns.col(c) /= size;
   }
   double const variance = (y.array() - y.mean()).square().sum();
-  Eigen::VectorXd const rest = y - columns * columns.colPivHouseholderQr().solve(y).eval();
+  Eigen::VectorXd const rest = y - columns * solve_pivoted(columns, y);
   return variance > 0 ? 1 - rest.squaredNorm() / variance : 0.0;
 }
 

@@ -2,7 +2,7 @@
 // Torques on one joint that the motion of other joints makes, a unit of each parameter: columns that come with a
 // recording, since the joint's own motion does not tell them.
 //
-// Shapes     columns: n samples at the full rate x L parameters of the law of that name
+// Shapes     columns: n samples at the full rate x L parameters of the effect of that name
 // Units      N m (or N) per unit of the parameter
 // Threads    plain record
 
@@ -19,7 +19,7 @@ struct GivenSignals {
   };
   std::vector<Law> laws{};
 
-  // nullptr: the recording tells nothing of that law
+  // nullptr: the recording tells nothing of that effect
   Eigen::MatrixXd const* of(std::string const& law) const {
     for (Law const& one : laws)
       if (one.name == law) return &one.columns;

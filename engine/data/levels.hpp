@@ -55,7 +55,7 @@ inline double one_speed_ratio() {
   return (1.0 - half + 0.95 * 2.0 * half) / (1.0 - half + 0.10 * 2.0 * half);
 }
 
-// convention: share of moving time at one speed that leaves nothing to be said of laws of the velocity
+// convention: share of moving time at one speed that leaves nothing to be said of effects of the velocity
 inline constexpr double mostly_one_speed = 0.75;
 // convention: a model that leaves 90 % of the torque (80 % of its energy) explains nothing
 inline constexpr double no_relation = 0.9;

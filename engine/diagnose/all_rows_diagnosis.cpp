@@ -114,7 +114,7 @@ class AllRowsWork {
     if (why) hopeless(*why);
   }
 
-  // one joint of a moving arm: its neighbours' motion says more of the torque than any law of its own
+  // one joint of a moving arm: its neighbours' motion says more of the torque than any effect of its own
   bool others_load_it(Recording const& training, DecisionFacts const& facts) {
     if (training.other_positions.cols() == 0) return false;
     JointModel model(first_look_.regressor());

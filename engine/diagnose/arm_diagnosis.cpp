@@ -22,10 +22,10 @@
 namespace torquescope {
 namespace {
 
-// of each joint that has laws which the rigid arm is fitted beside: their torque in each training recording
+// of each joint that has effects which the rigid arm is fitted beside: their torque in each training recording
 using LawsOfJoints = std::vector<LawTorques>;
 
-// of the first so many laws
+// of the first so many effects
 LawTorques sum_of(std::vector<LawTorques> const& laws, std::size_t count) {
   LawTorques sum = laws.front();
   for (std::size_t i = 1; i < count; ++i)
@@ -33,7 +33,7 @@ LawTorques sum_of(std::vector<LawTorques> const& laws, std::size_t count) {
   return sum;
 }
 
-// the rigid arm beside laws, and every joint's recordings without it
+// the rigid arm beside effects, and every joint's recordings without it
 struct ArmBesideLaws {
   LawsOfJoints laws{};  // [N]
   FittedArm fitted{};
@@ -100,7 +100,7 @@ class ArmWork {
     return std::any_of(laws.begin(), laws.end(), [](auto const& of_joint) { return !of_joint.empty(); });
   }
 
-  // Takes out of all recordings what acts on several joints at once, as far as it shows beside laws of joints. Whether
+  // Takes out of all recordings what acts on several joints at once, as far as it shows beside their effects. Whether
   // there was any
   bool take_laws_of_whole_arm(LawsOfJoints const& beside_laws) {
     if (progress_) progress_("whole arm", 0, 1);
@@ -136,7 +136,7 @@ class ArmWork {
     return joint;
   }
 
-  // A joint most of whose mismatch a law of the whole arm explains is not unexplained: what is left of it is
+  // A joint most of whose mismatch an effect of the whole arm explains is not unexplained: what is left of it is
   void credit_laws_of_whole_arm(std::vector<JointDiagnosis>& joints) const {
     for (auto const& answer : answers_)
       for (auto const& law : answer.accepted)
@@ -157,7 +157,7 @@ class ArmWork {
     return left;
   }
 
-  // The laws of a joint beside those of the others, as large as a fit of them and the arm together has them: beside an
+  // Effects of a joint beside those of the others, as large as a fit of them and the arm together has them: beside an
   // arm that was fitted without them they come out too small
   LawsOfJoints with_laws(std::size_t j, LawTorques const& found) const {
     LawsOfJoints laws = arm_.laws;
@@ -193,7 +193,7 @@ class ArmWork {
     return arm;
   }
 
-  // One law after the other, the strongest first, until none is new to the fit of the arm. Of a joint with several the
+  // One effect at a time, the strongest first, until none is new to the fit of the arm. Of a joint with several the
   // first alone: beside an arm that lacks it, the next may be no more than what the arm was bent by it
   void take_laws_in_turn() {
     for (auto strongest = strongest_new(); strongest; strongest = strongest_new()) {
@@ -212,7 +212,7 @@ class ArmWork {
     }
   }
 
-  // A joint without names is told as it is beside the laws of others, but not beside an arm that lacks its own
+  // A joint without names is told as it is beside the effects of others, but not beside an arm that lacks its own
   JointOutcome searched_beside_laws(std::size_t j) const {
     JointOutcome outcome = searched(j, RigidArm::shared);
     if (arm_.laws[j].empty() && outcome.diagnosis.joints.front().effects.empty()) return outcome;
@@ -226,7 +226,7 @@ class ArmWork {
     return guard_rows({terms, input_.filter, first.rate_hz, first.position.size(), input_.filter_section});
   }
 
-  // A law that is missing bends the rigid arm, which then hides it. Where a joint stays unexplained, a search that may
+  // A missing effect bends the rigid arm, which then hides it. Where a joint stays unexplained, a search that may
   // correct the arm at that joint is the pilot: beside what it finds the arm is fitted anew, and the joint is judged
   // beside that arm. Whether names came of it
   bool try_beside_pilot(std::size_t j) {
@@ -255,7 +255,7 @@ class ArmWork {
     return moved > tenth * arm_.fitted.noise[static_cast<Eigen::Index>(j)];
   }
 
-  // Of joints with a law that is not yet taken out of the fit, the one whose laws are largest relative to its noise:
+  // Of joints with an effect that is not yet taken out of the fit, the one with the largest relative to its noise:
   // these bias the shared parameters most
   std::optional<std::size_t> strongest_new() const {
     std::optional<std::size_t> strongest;
@@ -325,13 +325,13 @@ class ArmWork {
   ArmDiagnosisInput const& input_;
   StageSink const& progress_;
   ArmFilter filter_;
-  std::vector<RecordedArm> train_, unseen_;  // less what a simulator and laws of the whole arm explain
+  std::vector<RecordedArm> train_, unseen_;  // less what a simulator and effects of the whole arm explain
   std::vector<double> parameter_share_{};    // [N] with a simulator
   std::vector<WholeArmAnswer> answers_{};
   ArmBesideLaws arm_{};
-  std::vector<JointOutcome> alone_{}, outcomes_{};  // [N] beside the arm without laws; as it is told
+  std::vector<JointOutcome> alone_{}, outcomes_{};  // [N] beside the arm without effects; as it is told
   std::vector<Eigen::VectorXd> searched_on_{};      // [N] rigid torque of the last search
-  std::vector<std::size_t> taken_{};                // [N] laws that the arm is fitted beside
+  std::vector<std::size_t> taken_{};                // [N] effects that the arm is fitted beside
 };
 
 }  // namespace

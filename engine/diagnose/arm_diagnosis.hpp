@@ -3,7 +3,7 @@
 //
 // Steps      fit of the rigid arm and its frictions to all training recordings; of each joint what that arm does not
 //            need, with its own friction and inertia free (rigid_rows.hpp); search and verdict of each joint
-// Training   a joint's own parameters are of one fit to all training recordings; a law must serve them all
+// Training   a joint's own parameters are of one fit to all training recordings; an effect must serve them all
 // Errors     Error 65, 78 as the parts; what a joint's rows are to blame for is that joint's verdict
 // Threads    spreads work over `threads`; same bits for any number
 // Source     METHOD.md, Arms

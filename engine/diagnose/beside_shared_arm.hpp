@@ -1,10 +1,10 @@
 #pragma once
-// The outcome of a joint that was searched beside a rigid arm refitted to what its laws leave, told in terms of the arm
-// as it was fitted alone: only that arm is what the user has without the laws.
+// The outcome of a joint that was searched beside a rigid arm refitted to what its effects leave, in terms of the arm
+// as it was fitted alone: only that arm is what the user has without the effects.
 //
-// Before     errors of the rigid arm alone. Beside laws that are left out again, the refitted one is worse
+// Before     errors of the rigid arm alone. Beside effects that are left out again, the refitted one is worse
 // Names      stand where their error is clearly lower than that, by as much as a verdict names: a paired test over
-//            blocks of the unseen recordings (held_out_gain.hpp); without any, the cross-validated error
+//            blocks of the validation recordings (held_out_gain.hpp); without any, the cross-validated error
 // None       the outcome of the arm alone
 // Shapes     traces of both outcomes: the same recordings and rows
 // Threads    pure function

@@ -22,7 +22,7 @@ double encoder_step_of(Recording const& recording) {
   return quantisation_step({recording.position.data(), static_cast<std::size_t>(recording.position.size())});
 }
 
-// a recording compared with itself: candidates see its own motion, and no twin takes chance off what they explain
+// a recording compared with itself: candidates see its own motion, and no replicate takes chance off what they explain
 TwinComparison by_itself(RecordPipeline const& pipeline, ProcessedRecord record) {
   TwinComparison result;
   auto& rows = result.rows;

@@ -33,7 +33,7 @@ Eigen::VectorXd beside_the_model(ModelStage const& stage, Eigen::VectorXd const&
 }
 
 // What is cut off at the ends of the record has no place: the filters swing there. Nor has friction at rest, where it
-// is whatever keeps the joint there and no law of the motion: a joint that stands half of the time would have all its
+// is what keeps the joint there, no effect of the motion: a joint that stands half of the time would have all its
 // friction there
 std::vector<Eigen::Index> acting_samples(ModelStage const& stage, Effect const& effect) {
   Motion const& motion = stage.comparison.common.motion;

@@ -3,7 +3,7 @@
 // own simulator explains of it.
 //
 // Merged     terms that are one number on the rows are one in the model of the diagnosis (shared_constants.hpp)
-// Closed     laws that the motion cannot tell (motion_limits.hpp)
+// Closed     effects that the motion cannot tell (motion_limits.hpp)
 // Simulator  recordings lose what a simulator holds beyond the terms (simulator_gap.hpp)
 // Errors     look(): Error 78 for a filter that does not suit the recording, 65 as the pipeline
 // Threads    one object per diagnosis, used by one thread
@@ -52,7 +52,7 @@ class FirstLook {
   }
   // a torque without inertia and friction, where nothing else is missing
   std::optional<Hopeless> const& static_torque() const { return static_torque_; }
-  // what the simulator cannot say of an unseen recording, by the terms it has in training
+  // what the simulator cannot say of a validation recording, by the terms it has in training
   Recording less_simulator(Recording recording) const;
 
  private:

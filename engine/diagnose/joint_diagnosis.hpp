@@ -39,7 +39,7 @@ struct DiagnosisInput {
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 
-// torque of a law, per sample: of the first training recording, then of each other
+// torque of an effect, per sample: of the first training recording, then of each other
 using LawTorques = std::vector<Eigen::VectorXd>;
 
 struct JointOutcome {

@@ -14,7 +14,7 @@ bool is_named(KeptModel const& kept) {
   return !kept.state.selection.accepted.empty() && kept.is_held_out_lower && kept.state.adequacy.holds();
 }
 
-// laws that this joint can have, and its motion can tell
+// effects that this joint can have, and its motion can tell
 SelectionOptions selection_for(JointQuestion const& question, Recording const& recording) {
   SelectionOptions selection = question.input.selection;
   std::erase_if(selection.candidates, [&](Effect const* law) {

@@ -45,7 +45,7 @@ struct JointSearchAnswer {
 JointSearchAnswer search_joint(JointQuestion const& question, Recording const& recording,
                                OwnedRecordings const& others);
 
-// the smallest share of the torque that could have been seen to be missing; of unseen rows the replicates' error
+// the smallest share of the torque that could have been seen to be missing; of validation rows the replicates' error
 double visible_share(ModelStage const& baseline, double unseen_floor);
 
 }  // namespace torquescope

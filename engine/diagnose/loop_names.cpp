@@ -40,7 +40,7 @@ void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts c
   bool const keeps_delay = scan.delay.is_named && names.has_delay && !names.command_delay;
   for (auto& effect : joint.effects) {
     bool is_law = false, stands = false;
-    // waves of one law are one name
+    // waves of one effect are one name
     for (std::size_t i = 0; i < scan.accepted.size(); ++i) {
       if (scan.accepted[i].effect->name() != effect.name) continue;
       is_law = true;

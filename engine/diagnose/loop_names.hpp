@@ -1,5 +1,5 @@
 #pragma once
-// Names of a diagnosis after the simulations in the loop: laws that did not stand go, what acts between command and
+// Names of a diagnosis after the simulations in the loop: effects that did not stand go, what acts between command and
 // motor comes.
 //
 // Numbers    where simulations decided, those of their final model
@@ -11,7 +11,7 @@
 
 namespace torquescope {
 
-// joint: with a name for each law that the scan took, then its delay if that is named
+// joint: with a name for each effect that the scan took, then its delay if that is named
 void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts const& loop, StandingNames const& names);
 
 // whether what is left falls by least_fall: of the simulations where they decided, else of the judged rows

@@ -62,7 +62,7 @@ void account_for_models(Selection const& selection, std::string const& timing, J
   joint.disturbance = before.twin->disturbance.std;
   joint.friction_wander = before.twin->friction_wander.std;
 
-  // what the recording is among its twins
+  // what the recording is among its replicates
   joint.twins = static_cast<std::size_t>(rows.n_twins());
   joint.omnibus_z = before.energy.z;
   joint.omnibus_p = before.energy.p;

@@ -21,7 +21,7 @@ struct NamedEffects {
   std::vector<std::size_t> place{};             // of each accepted effect among `effects`
 };
 
-// evidence: of the final stage; catalogue: laws that may be rivals of an accepted one (confidence_set.hpp)
+// evidence: of the final stage; catalogue: effects that may be rivals of an accepted one (confidence_set.hpp)
 NamedEffects name_effects(Selection const& selection, Evidence const& evidence,
                           std::span<Effect const* const> catalogue, DecisionLevels const& levels,
                           RefinementSetting const& setting);

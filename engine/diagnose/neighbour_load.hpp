@@ -6,7 +6,7 @@
 //            p'' and q'' times cosine and sine of p: the terms of an arm of two joints, and gravity
 // Measure    two columns of them, chosen on the rows outside each of ten blocks, predict the rows inside
 //            (statistics/forward_columns.hpp); more would fit the noise of short recordings
-// Beside     the model, and laws of the joint's own position and speed that it may lack (cubic, one turn, square and
+// Beside     the model, and effects of the joint's own position and speed that it may lack (cubic, one turn, square and
 //            root of the speed): what is their work is no load of others
 // Units      relerr: share of the torque
 // Threads    free function
@@ -22,7 +22,7 @@
 namespace torquescope {
 
 struct NeighbourLoad {
-  HeldOutGain gain{};                  // beside the model and laws of the joint alone
+  HeldOutGain gain{};                  // beside the model and effects of the joint alone
   double relerr = 0.0;                 // of rows left out, with the model and the two columns
   std::vector<std::string> columns{};  // of the file: joints that the choice on all rows takes
 };

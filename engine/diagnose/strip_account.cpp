@@ -24,7 +24,7 @@ Eigen::VectorXd effect_alone(FittedModel const& by, std::size_t i) {
   return alone;
 }
 
-// of the first strip, at the laws' rate
+// of the first strip, at the effects' rate
 Eigen::VectorXd torque_by(FittedModel const& by, Eigen::VectorXd const& parameters) {
   return model_torque(by.fitted->on(), 0, by.fitted->chosen().fit.samples.front(), parameters);
 }

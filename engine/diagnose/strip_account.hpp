@@ -1,5 +1,5 @@
 #pragma once
-// What is drawn and told of a model on all samples: the mismatch map, where each law acts, traces of torque.
+// What is drawn and told of a model on all samples: the mismatch map, where each effect acts, traces of torque.
 //
 // Rows       of the first training recording, those of the decision; quiet samples count nothing
 // Replicates of the model, on the recording's rows: what a complete model leaves

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// "zero_3" of the law that is joint 3's
+// "zero_3" of the effect that is joint 3's
 std::string name_of(EffectParameter const& parameter, LawPlace const& law) {
   return law.joint ? parameter.name + "_" + std::to_string(*law.joint + 1) : parameter.name;
 }

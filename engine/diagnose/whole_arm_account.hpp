@@ -1,5 +1,5 @@
 #pragma once
-// What a search for laws of the whole arm found, as a diagnosis keeps it.
+// What a search for effects of the whole arm found, as a diagnosis keeps it.
 //
 // Threads    free function
 

@@ -1,8 +1,8 @@
 #pragma once
-// What a law found in one recording says of another recording of the same joint.
+// What an effect found in one recording says of another recording of the same joint.
 //
-// Clock-bound  laws of an instant or a clock: what begins at an instant, waves per second, everything of the family
-//              time. They are tried after all laws of the motion and named only with an adequate model
+// Clock-bound  effects of an instant or a clock: what begins at an instant, waves per second, everything of the family
+//              time. They are tried after all effects of the motion and named only with an adequate model
 // In part      a warm-up happens in another recording too, but how far it had gone at its start is not known: a share
 //              of it, 0 to 1, is a nuisance parameter of that recording
 // Phase        a wave over a counter keeps size and order; where the counter begins is another place in each recording.

@@ -36,7 +36,7 @@ struct EffectParameter {
   Bound upper{std::numeric_limits<double>::infinity()};
   bool is_shape = false;  // nonlinear: held fixed while the linear ones are solved
   Spacing spacing = Spacing::linear;
-  bool none_at_lower = false;  // its lower bound stands for a law without it
+  bool none_at_lower = false;  // its lower bound stands for an effect without it
   bool is_resonance = false;   // that rings: most of what it explains is gone a few percent beside it
   // a bound that is a law of its own (an exponent of 2, a share of all), or a limit of what rows can tell: an estimate
   // there is a finding, and at any other bound the end of what is plausible
@@ -136,10 +136,10 @@ struct EffectDescription {
   bool is_level_free =
       false;              // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
   bool is_given = false;  // columns come with the recording (given_effect.hpp)
-  bool is_of_whole_arm = false;  // acts on several joints at once, and is judged on the rows of all
+  bool is_of_whole_arm = false;   // acts on several joints at once, and is judged on the rows of all
   bool is_torque_timing = false;  // the torque at another time: a nuisance of every decision
-  bool is_rigid_body = false;    // mass or weight of the moved body, which the model of a whole arm has already
-  std::string plain_equation{};  // of the law without shapes, for which an empty shape stands; empty: there is none
+  bool is_rigid_body = false;     // mass or weight of the moved body, which the model of a whole arm has already
+  std::string plain_equation{};   // of the effect without shapes, for which an empty shape stands; empty: there is none
   // the torque as an expression in C (instant_code.hpp); empty where one instant of the motion does not tell it
   std::string code{}, plain_code{};
 };
@@ -177,7 +177,7 @@ class Effect {
   std::string const& plain_code() const { return description_.plain_code; }
   bool has_plain_form() const { return !description_.plain_equation.empty(); }
   virtual bool has_memory() const = 0;
-  // false: the law can be computed there, but would be something else than its name says; n_shape()
+  // false: the effect can be computed there, but would be something else than its name says; n_shape()
   virtual bool is_plausible(std::span<double const> shape, JointScales const& scales) const;
 
   std::size_t n_linear() const { return n_linear_; }

@@ -42,7 +42,7 @@ enum class ActsOn {
   recorded_position,  // position that is read but not there
 };
 
-// of a search over a shape parameter; cubic: from a bound that is 0, where the law is without it, by decades and yet
+// of a search over a shape parameter; cubic: from a bound that is 0, where the effect is without it, by decades and yet
 // down to it
 enum class Spacing { linear, logarithmic, cubic };
 

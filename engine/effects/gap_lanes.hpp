@@ -1,5 +1,5 @@
 #pragma once
-// Eight loads behind gaps side by side in vector registers, each with a law of its own: what they do in one part of a
+// Eight loads behind gaps side by side in vector registers, each with its own effect: what they do in one part of a
 // step.
 //
 // Order      of a step: drive_to(), with dry friction speed_to(begins); for each part before_dry_sub_step(),

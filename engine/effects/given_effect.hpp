@@ -1,5 +1,5 @@
 #pragma once
-// A law of several joints, as one of them feels it: its columns come with the recording (EffectInput::given), since
+// An effect of several joints, as one of them feels it: its columns come with the recording (EffectInput::given), since
 // they are functions of the other joints' motion. Looked for in whole arms alone (arms/arm_laws.hpp).
 //
 // Columns    zero where the recording has none

@@ -1,6 +1,6 @@
 #pragma once
 // An effect without memory: its columns at one instant are a function of that instant. Files in effects/ add law(), the
-// equation over arrays: recordings, twins and single instants all go through it.
+// equation over arrays: recordings, replicates and single instants all go through it.
 
 #include "engine/effects/effect.hpp"
 #include "engine/effects/joint_states.hpp"

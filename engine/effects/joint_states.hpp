@@ -3,7 +3,7 @@
 // written with.
 //
 // Shapes     n instants, n <= states_at_once: a block of a recording, the lanes of a group of twins, or one instant
-// Bits       of a law over them: the same for any n and any place (kernels/elementary.hpp), so that simulation and
+// Bits       of an effect over them: the same for any n and any place (kernels/elementary.hpp), so that simulation and
 //            columns agree to the last digit
 // Threads    views and free functions; do not allocate
 
@@ -42,7 +42,7 @@ struct JointStates {
   }
 };
 
-// a quantity a law needs on its way
+// a quantity an effect needs on its way
 using Scratch = Eigen::Array<double, Eigen::Dynamic, 1, 0, states_at_once, 1>;
 // n x n_linear(): torque per unit of each linear parameter
 using LawColumns = Eigen::Ref<Eigen::ArrayXXd>;

@@ -203,7 +203,7 @@ class LoadsBehindGap final : public EffectMemory {
     loads.side[k] = load.side;
   }
 
-  std::vector<LoadBehindGap> loads_{};  // one per lane: its law, and what one event needs
+  std::vector<LoadBehindGap> loads_{};  // one per lane: its effect, and what one event needs
   std::vector<Block> blocks_{};
   RememberedSteps<std::vector<EightSubSteps>> remembered_{};
   bool has_started_ = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Loads behind a gap, side by side in vector registers: of one shape for twins, of one shape each for columns.
+// Loads behind a gap, side by side in vector registers: of one shape for replicates, of one shape each for columns.
 //
 // Why        a load takes thousands of sub-steps in a second, most of them without contact made or lost: those are the
 //            same few operations in every lane. Loads of other shapes may take more of them than their neighbours,

@@ -1,5 +1,5 @@
 #pragma once
-// Loads on springs that may stiffen, side by side in vector registers: of one shape for twins, of one shape each for
+// Loads on springs that may stiffen, side by side in vector registers: of one shape for replicates, of one each for
 // columns. effects/joint_elasticity.cpp has the equation.
 //
 // Memory     y and y' of each: of a straight spring exact for an acceleration that runs straight between two samples;

@@ -25,7 +25,7 @@
 
 namespace torquescope {
 
-// the states behind the columns of one effect, one per lane: of one shape for twins, of one shape each for columns
+// the states behind the columns of one effect, one per lane: of one shape for replicates, of one shape each for columns
 class EffectMemory {
  public:
   virtual ~EffectMemory() = default;

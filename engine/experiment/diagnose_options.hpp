@@ -42,7 +42,7 @@ void refuse_too_few_twins(DiagnoseOptions const& options, std::size_t joints, Se
 
 // the effects to look for: those named, in that order, or the whole catalogue as far as the joint can have it, without
 // the terms that the model has already. `section`: [diagnose], for the places in messages
-// laws of several joints exist in arms alone
+// effects of several joints exist in arms alone
 enum class JointsOfJob { one, of_an_arm };
 
 std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointKind joint,

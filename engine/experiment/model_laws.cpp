@@ -84,7 +84,7 @@ std::vector<ModelLaw> laws_of(JointDiagnosis const& joint) { return laws_of(mode
 
 std::vector<ModelLaw> laws_of(Parameters const& parameters, LawLevels const& levels) {
   std::vector<ModelLaw> laws;
-  std::vector<std::string> numbers;  // of each law
+  std::vector<std::string> numbers;  // of each effect
   for (auto const& parameter : parameters) {
     NumberedName own{parameter.name, ""};
     Effect const* effect = owner_of(own.name);

@@ -63,7 +63,7 @@ std::vector<ModelEffect> effects_of(JointDiagnosis const& joint, Regressor const
   return effects;
 }
 
-// what laws took from the fitted baseline
+// what effects took from the fitted baseline
 JointScales scales_of(RolloutParts const& rollout, JointDiagnosis const& joint) {
   JointScales scales = rollout.model->structure().scales;
   if (std::isfinite(joint.law_levels.forward)) scales.coulomb_positive = joint.law_levels.forward;

@@ -6,7 +6,7 @@
 // Command    rows beyond the limit are taken as the limit, which is what the joint got: leaving them out would also
 //            take away what a filter mixes with them. To a diagnosis it is a fault: what is left of it looks like
 //            physics
-// Zero       taken out of the torque for a fit; a diagnosis leaves it in, for it has a law of its own to name
+// Zero       taken out of the torque for a fit; a diagnosis leaves it in, for it has an effect of its own to name
 // Threads    free functions
 
 #include <optional>

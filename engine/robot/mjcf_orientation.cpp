@@ -44,7 +44,12 @@ Eigen::Matrix3d of_axes(Eigen::Vector3d const& x_given, Eigen::Vector3d const& y
 }  // namespace
 
 Eigen::Matrix3d turn_of_z_onto(Eigen::Vector3d const& direction) {
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction.normalized()).toRotationMatrix();
+  Eigen::Vector3d const onto = direction.normalized(), across = Eigen::Vector3d::UnitZ().cross(onto);
+  // straight down: half a turn about x, as MuJoCo does it
+  if (onto.z() < -1.0 + Eigen::NumTraits<double>::dummy_precision()) return Eigen::Vector3d(1, -1, -1).asDiagonal();
+  double const twice_cosine = std::sqrt(2.0 * (1.0 + onto.z()));
+  Eigen::Vector3d const axis = across / twice_cosine;
+  return Eigen::Quaterniond(0.5 * twice_cosine, axis.x(), axis.y(), axis.z()).toRotationMatrix();
 }
 
 Eigen::Matrix3d mjcf_rotation(XmlElement const& element, MjcfCompiler const& compiler) {

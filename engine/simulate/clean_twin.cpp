@@ -28,7 +28,7 @@ void draw_starts(TwinAddress const& address, std::uint32_t group, TwinLoop const
 }
 
 // Where the encoder's steps lie is not known better than a step: what rounding makes of one motion is noise, not
-// physics. With the steps in one place all twins of an undisturbed joint would share nearly every reading, and one
+// physics. With the steps in one place all replicates of an undisturbed joint would share nearly every reading, and one
 // pattern of rounding would pass for all there is.
 void draw_phases(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double* phase) {
   for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {

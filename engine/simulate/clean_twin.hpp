@@ -31,17 +31,17 @@ struct TwinLoop {
   double encoder_step = 0.0;           // rad or m; 0: exact
   Autoregression torque_noise{};       // of the measurement
   Autoregression slow_torque_noise{};  // the same, beside it
-  // standard error of both their variances, as a share: every twin draws a level of its own
+  // standard error of both their variances, as a share: every replicate draws a level of its own
   double torque_noise_variance_error = 0.0;
   double disturbance_std = 0.0;  // N m or N, white from tick to tick, acting on the joint
   // standard error of its square: every replicate draws its own level, so that the null holds this uncertainty
   double disturbance_variance_error = 0.0;
   double position_noise_std = 0.0;  // rad or m, before the encoder
   // the level of dry friction as a random walk: standard deviation of its change in one second, as a share of it; every
-  // twin draws a size of its own, as above
+  // replicate draws a size of its own, as above
   double friction_wander = 0.0;
   double friction_wander_variance_error = 0.0;
-  StickingRange sticking{};  // of dry friction: every twin draws a law of its own; none: it holds at once
+  StickingRange sticking{};  // of dry friction: every replicate draws a law of its own; none: it holds at once
 };
 
 // the same law with nothing random about it
@@ -52,7 +52,7 @@ struct TwinTrack {
   double rate_hz = 0.0;
   Eigen::VectorXd reference{};  // [n]
   double start_position = 0.0, start_velocity = 0.0;
-  // a twin that asks for more has run away
+  // a replicate that asks for more has run away
   double largest_torque = std::numeric_limits<double>::infinity();
   // [n] what the law gives beside the joint's own torque, held, to an arm whose other joints move; empty: nothing. The
   // replicate's torque is without it, as that of a recording is
@@ -89,7 +89,7 @@ class CleanTwin {
   TwinTrack track_;
   double asked_step_s_ = 0.0, step_s_ = 0.0;
   std::size_t steps_per_tick_ = 0;
-  Eigen::VectorXd open_;    // the law's part that no twin changes
+  Eigen::VectorXd open_;    // the law's part that no replicate changes
   Eigen::VectorXd wanted_;  // reference seen by the summed error
 };
 

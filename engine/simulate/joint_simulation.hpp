@@ -41,7 +41,7 @@ struct SimulatedRecording {
   Eigen::Index saturated_samples = 0;  // |torque| at the motor's limit
 };
 
-// index 0 is the recording to learn from, 1 the unseen one (plan.simulation.validate)
+// index 0 is the recording to learn from, 1 the validation one (plan.simulation.validate)
 // true_torque may stay empty, for who has no use for it: 8 bytes per sample
 enum class TrueTorque { kept, left_out };
 SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index = 0,

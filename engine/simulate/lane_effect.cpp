@@ -33,7 +33,7 @@ constexpr LaneTorques filled(double value) {
 }
 constexpr LaneTorques none = filled(0.0), one = filled(1.0);
 
-// asked of the law itself, so that no table can disagree; what begins at an instant may do so then
+// asked of the effect itself, so that no table can disagree; what begins at an instant may do so then
 bool asks_for_acceleration(InstantEffect const& law, std::vector<double> const& parameters, JointScales const& scales) {
   if (law.is_event()) return true;
   JointState const coasts{0.0, 0.4, -0.7, 0.0, 1.2, -0.8};
@@ -196,7 +196,7 @@ class CatalogueEffect final : public LaneEffect {
     return law_->torque(JointState{.dq = direction * slowest}, parameters_, scales_);
   }
 
-  // most often all lanes move one way: what the other branch begins with, of laws of the speed alone
+  // most often all lanes move one way: what the other branch begins with, of effects of the speed alone
   struct Rest {
     double forward, backward;
   };
@@ -210,7 +210,7 @@ class CatalogueEffect final : public LaneEffect {
   double gear_load_rate_hz_;
   std::vector<double> parameters_;
   JointScales scales_;
-  // all lanes at once: a law of the instant in the joint, or what each twin remembers
+  // all lanes at once: an effect of the instant in the joint, or what each replicate remembers
   InstantEffect const* law_ = nullptr;
   std::optional<Rest> rest_{};
   std::unique_ptr<EffectMemory> memory_;

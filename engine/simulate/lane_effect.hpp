@@ -53,7 +53,7 @@ struct LaneBaseline {
   // load that passes the gear beside inertia and weight, one per tick from time 0 on; none
   std::shared_ptr<Eigen::VectorXd const> gear_load{};
   double rate_hz = 0.0;                         // of it
-  std::shared_ptr<GivenSignals const> given{};  // one per tick, of laws of several joints; none
+  std::shared_ptr<GivenSignals const> given{};  // one per tick, of effects of several joints; none
 };
 
 // a fresh object, its memory at the start of a recording

@@ -1,7 +1,7 @@
 #pragma once
-// What is random in a group of twins, lane by lane: noises, their levels, the friction random walk, sticking laws.
+// What is random in a group of replicates, lane by lane: noises, their levels, the friction random walk, sticking laws.
 //
-// Random     addressed by (seed, recording, set, stream, twin, draw): one lane's numbers do not depend on its
+// Random     addressed by (seed, recording, set, stream, replicate, draw): one lane's numbers do not depend on its
 //            neighbours
 // Shapes     every array: twin_lanes
 // Threads    an object belongs to one group on one thread

@@ -1,5 +1,5 @@
 #pragma once
-// What goes round the equation of motion of one step of twins, side by side in vector registers.
+// What goes round the equation of motion of one step of replicates, side by side in vector registers.
 //
 // Why        an effect that follows steps is asked ten times in a tick. A vector that is loaded from what was just
 //            stored in smaller pieces waits until these are in the cache, so that everything between two steps is done

@@ -1,5 +1,5 @@
 #pragma once
-// The fitted baseline of a joint as twins simulate it: the terms that fill the lanes directly, and the rest as effects.
+// The fitted baseline of a joint as replicates have it: the terms that fill the lanes directly, the rest as effects.
 //
 // Units      SI
 // Errors     Error 65 when the parameters are no joint: inertia not above 0, dry friction that would drive

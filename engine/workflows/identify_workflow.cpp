@@ -53,7 +53,7 @@ double gap_to_floor(Study const& study, Eigen::VectorXd const& parameters) {
   return study.floor.gap({parameters.data(), static_cast<std::size_t>(parameters.size())});
 }
 
-// NaN where no row is left: an unseen recording of an arm that stands still
+// NaN where no row is left: a validation recording of an arm that stands still
 std::vector<PredictionMetrics> metrics_of(RegressionData const& rows, std::vector<Eigen::VectorXd> const& parameters) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (rows.rows() > 0) return prediction_metrics(rows, parameters);

@@ -82,7 +82,7 @@ bool TwinFolder::is_worth_it(TwinBatch const& batch) const {
          0.5 * static_cast<double>(batch.range.size()) * static_cast<double>(batch.samples) >= setting_.least_gain;
 }
 
-// several parts for each process where there are twins enough: one that is slower or late makes fewer
+// several parts for each process where there are replicates enough: one that is slower or late makes fewer
 std::vector<TwinFolder::Part> TwinFolder::parts_of(TwinBatch const& batch) const {
   constexpr std::size_t most_for_each = 4, groups_to_divide = 8;
   std::size_t const groups = (batch.range.size() + twin_lanes - 1) / twin_lanes, shards = setting_.shard.count;
@@ -113,7 +113,7 @@ void TwinFolder::fill(TwinBatch const& batch) {
   try {
     fill_parts(batch, parts_of(batch));
   } catch (Error const&) {
-    // which twin is told of must not depend on whose it was
+    // which replicate is told of must not depend on whose it was
     batch.compute(batch.range);
   }
 }

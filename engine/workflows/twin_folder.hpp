@@ -34,16 +34,14 @@ class TwinFolder final : public TwinExchange {
     std::uintmax_t bytes_kept_free = 0;  // for the result
     std::function<bool()> must_end{};    // asked before every part, and while waiting
     std::function<void(std::string const& topic, std::string const& text)> tell{};  // "warning"
-    // samples of all twins that two processes gain by sharing, below which a file costs more
+    // samples of all replicates that two processes gain by sharing, below which a file costs more
     double least_gain = 2.5e5;
   };
   explicit TwinFolder(Setting setting);
 
   void fill(TwinBatch const& batch) override;
 
-  std::size_t parts_taken() const { return taken_; }  // from files
-  std::size_t parts_made() const { return made_; }    // here
-  std::string account() const;                        // "12 of 25 parts of the twins were simulated here"
+  std::string account() const;  // "12 of 25 parts of the replicates were simulated here"
 
  private:
   struct Part {
@@ -67,7 +65,7 @@ class TwinFolder final : public TwinExchange {
   Sha256 job_;
   std::string program_;
   bool publishes_ = true;
-  std::size_t batches_ = 0, taken_ = 0, made_ = 0;
+  std::size_t batches_ = 0, taken_ = 0, made_ = 0;  // parts from files, parts made here
   double longest_part_s_ = 0.0;
   std::vector<double> numbers_;  // of one part
 };

@@ -227,7 +227,7 @@ def draw_motion(rng, joints, seconds, rate, vigour):
 
 
 def draw_friction(rng, torque, motion, small=0.0):
-    """In proportion to the torque of the links and the speeds; nothing but the plain laws."""
+    """In proportion to the torque of the links and the speeds; nothing but the plain terms."""
     n = torque.shape[1]
     size = np.sqrt((torque**2).mean(0)) + 0.05 * np.sqrt((torque**2).mean(0)).max() + small
     speed = abs(motion.dq).max(0)

@@ -1,6 +1,6 @@
-"""An arm with a motor that turns with two joints: with its row of the transmission errors on unseen rows fall to those
-of the noise and its parameters lie in their intervals; without it they do not. Half of them record torques of motors.
-"""
+"""An arm with a motor that turns with two joints: with its row of the transmission errors on validation rows fall to
+those of the noise and its parameters lie in their intervals; without it they do not. Half of them record torques of
+motors."""
 
 import copy
 

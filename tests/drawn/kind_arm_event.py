@@ -1,5 +1,5 @@
-"""An arm that picks up a body during the training recording, and at another instant in the unseen one: `diagnose` names
-it with the instants of both, and errors on unseen rows fall.
+"""An arm that picks up a body during the training recording, and at another instant in that of validation: `diagnose`
+names it with the instants of both, and errors on validation rows fall.
 """
 
 import dataclasses

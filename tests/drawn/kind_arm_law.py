@@ -1,5 +1,5 @@
-"""An arm with a law at one joint that no line is linear in: held by [[model.effects]], errors on unseen rows fall to
-the noise and its parameters are found; nothing of it stands at an arm without it.
+"""An arm with an effect at one joint that no line is linear in: held by [[model.effects]], errors on validation rows
+fall to the noise and its parameters are found; nothing of it stands at an arm without it.
 """
 
 import dataclasses

@@ -1,8 +1,8 @@
 """An arm whose set-up has one mistake: `check` names it, and with its lines pasted everything is as with a sound one.
 
 Where neither the motion nor the robot file can tell (the zero of a vertical first joint, the sign of a round last
-link), silence is right: the errors on unseen rows and those of the file's own masses are then those of the sound arm.
-"""
+link), silence is right: the errors on validation rows and those of the file's own masses are then those of the sound
+arm."""
 
 import json
 import os

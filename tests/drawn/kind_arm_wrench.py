@@ -1,6 +1,6 @@
-"""An arm that is pushed at its tip, and a sensor of the wrench: with its columns errors on unseen rows are those of the
-noise, without them they are not. A wrench of the wrong sign or along other axes is told with the line that mends it.
-"""
+"""An arm that is pushed at its tip, and a sensor of the wrench: with its columns errors on validation rows are those of
+the noise, without them they are not. A wrench of the wrong sign or along other axes is told with the line that mends
+it."""
 
 import copy
 import dataclasses

@@ -80,9 +80,12 @@ def main():
     parser.add_argument("kinds", nargs="*", default=[], help=", ".join(kinds))
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--cases", type=int, default=20)
+    parser.add_argument("--cases-in-full", type=int, help="as many where scripts/test --full runs them")
     parser.add_argument("--least", type=float, default=0.9, help="share of right cases below which the exit code is 1")
     parser.add_argument("--keep", help="folder that keeps the files of all cases")
     given = parser.parse_args()
+    if given.cases_in_full and os.environ.get("TORQUESCOPE_FULL"):
+        given.cases = given.cases_in_full
     sys.path.insert(0, str(HERE))
     too_few = False
     for kind in given.kinds or kinds:

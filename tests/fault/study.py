@@ -167,6 +167,11 @@ class FaultTest(unittest.TestCase):
             left.discard(result + ".parts")
         self.assertFalse(left, "nothing else is left")
 
+    def read_until(self, process, word):
+        """Up to a line of its messages that holds this word; a process that ends without one is a failure."""
+        while word not in (line := process.stderr.readline()):
+            self.assertTrue(line, f"ended with {process.poll()} before it said {word}")
+
     def assert_ended(self, ended, code):
         self.assertEqual(ended.code, code, ended.err)
 

@@ -154,17 +154,13 @@ class Twins(study.FaultTest):
             self.assertIn("3 parts of its replicates are safe in r.h5.parts", ended.out)
             self.assertIn("at work", ended.out)
 
-    def wait_for_replicates(self, process):
-        lines = iter(process.stderr.readline, b"")
-        self.assertTrue(any(b"stage=replicates" in line for line in lines), "a stage of replicates begins")
-
     def test_one_process_alone_says_how_far_it_is_and_takes_the_dead_ones_word_away(self):
         folder = self.folder()
         os.mkdir(folder / "r.h5.parts")
         with open(os.path.join(folder / "r.h5.parts", "shard-0000-of-0001.lock"), "w", encoding="utf-8") as dead:
             dead.write("process 1 on nowhere\nits last word")
         process = folder.start("diagnose", "job.toml", "--out", "r.h5", "--threads", "1", "--progress", "lines")
-        self.wait_for_replicates(process)
+        self.read_until(process, b"stage=replicates")
         status = folder.run("status", "r.h5", "--json", "-")
         ended = study.Ended(process)
         self.assert_ended(ended, 0)
@@ -178,7 +174,7 @@ class Twins(study.FaultTest):
         for number, code in ((signal.SIGTERM, 75), (signal.SIGINT, 75), (signal.SIGKILL, -signal.SIGKILL)):
             folder = self.folder(job)
             process = folder.start("diagnose", "job.toml", "--out", "r.h5", "--threads", "1", "--progress", "lines")
-            self.wait_for_replicates(process)
+            self.read_until(process, b"stage=replicates")
             process.send_signal(number)
             ended = study.Ended(process)
             self.assertEqual(ended.code, code, ended.said)
@@ -202,6 +198,7 @@ class Twins(study.FaultTest):
         process = folder.start("diagnose", "job.toml", "--out", "r.h5", "--threads", "1", "--quiet")
         told = lambda: json.loads(folder.run("status", "r.h5", "--json", "-").out or "{}")  # noqa: E731
         while '"stage": "replicates"' not in json.dumps(told()):
+            self.assertIsNone(process.poll(), "ended before a stage of replicates began")
             time.sleep(0.01)
         process.terminate()
         ended = study.Ended(process)

@@ -27,6 +27,14 @@ NEWCOMER_SECONDS, NEWCOMER_COMMANDS = 120, 5  # the promise to a newcomer
 SECONDS = 600
 
 
+def text_of(*names):
+    with open(os.path.join(SOURCE, *names), encoding="utf-8") as file:
+        return file.read()
+
+
+VERSION = re.search(r"project\(torquescope VERSION ([0-9.]+)", text_of("CMakeLists.txt"))[1]
+
+
 def said(*words, **options):
     done = subprocess.run(words, check=False, capture_output=True, text=True, timeout=SECONDS, **options)
     if done.returncode != 0:
@@ -91,13 +99,26 @@ class Packages(unittest.TestCase):
             owners = said("dpkg-query", "--search", f"*/{library}")
             self.assertTrue(any(line.split(":")[0] in depends for line in owners.splitlines()), (library, owners))
 
+    def assert_works(self, prefix, folder):
+        """The smoke job of the package itself, by the program of the package."""
+        program = os.path.join(prefix, "bin/torquescope")
+        self.assertIn(f"torquescope {VERSION}", said(program, "--version"))
+        said(program, "run", os.path.join(prefix, "share/torquescope/jobs/smoke.toml"), "--out", "smoke.h5", cwd=folder)
+        self.assertIn("median", said(program, "show", "smoke.h5", cwd=folder))
+
+    def test_tarball_works_from_any_folder(self):
+        folder = self.folder("any")
+        prefix = os.path.join(folder, "moved, with a comma and spaces")
+        os.rename(self.unpacked_tarball(self.folder("first")), prefix)
+        self.assert_works(prefix, folder)
+
     def test_deb_gives_a_verdict(self):
         folder = self.folder("deb")
         said("dpkg-deb", "-x", self.deb, folder)
         self.assert_whole(os.path.join(folder, "usr"))
+        self.assert_works(os.path.join(folder, "usr"), folder)
         self.write_csv(folder)
         program = os.path.join(folder, "usr/bin/torquescope")
-        self.assertIn("torquescope 0.", said(program, "--version"))
         said(program, "init", "mine.csv", "--out", "job.toml", cwd=folder)
         self.assertRegex(said(program, "diagnose", "job.toml", "--out", "mine.h5", cwd=folder), r"[A-Z]{4}")
 
@@ -157,24 +178,24 @@ class Packages(unittest.TestCase):
         self.assertRegex(answers[-1], "NAMED|CLASS|PARTLY|NOTHING MISSING|UNEXPLAINED|INSUFFICIENT|FAULT")
         self.assertLessEqual(len(commands), NEWCOMER_COMMANDS)
         self.assertLess(seconds, NEWCOMER_SECONDS)
-        self.assertIn("torquescope 0.", inside("--version"))
+        self.assertIn(f"torquescope {VERSION}", inside("--version"))
         self.assert_whole(os.path.join(root, os.path.dirname(os.path.dirname(bin_folder)).lstrip("/")))
 
     def test_the_recipes_are_of_this_version(self):
-        """Spack and Apptainer are not here: their recipes are read, not run."""
-        recipes = os.path.join(SOURCE, "scripts", "packages")
+        """Spack, Apptainer and Docker are not here: their recipes are read, not run."""
         for name in ("torquescope", "urdfdom"):
-            path = os.path.join(recipes, "spack", "packages", name, "package.py")
-            with open(path, encoding="utf-8") as file:
-                compile(file.read(), path, "exec")
-        with open(os.path.join(SOURCE, "CMakeLists.txt"), encoding="utf-8") as file:
-            version = re.search(r"project\(torquescope VERSION ([0-9.]+)", file.read())[1]
-        with open(os.path.join(recipes, "torquescope.def"), encoding="utf-8") as file:
-            definition = file.read()
+            path = ("scripts", "packages", "spack", "packages", name, "package.py")
+            compile(text_of(*path), path[-2], "exec")
+        definition = text_of("scripts", "packages", "torquescope.def")
         self.assertRegex(definition, r"(?m)\ABootstrap: docker\nFrom: debian:12")
         sections = re.findall(r"(?m)^%(\w+)", definition)
         self.assertEqual(sections, ["files", "post", "runscript", "test", "labels", "help"])
-        self.assertIn(f"version {version}", definition)
+        self.assertIn(f"version {VERSION}", definition)
+        image = text_of("scripts", "packages", "Dockerfile")
+        self.assertEqual(re.findall(r"(?m)^FROM (\S+)", image), 2 * ["debian:12-slim"])
+        self.assertIn(f"\nversion: {VERSION}\n", text_of("CITATION.cff"))
+        self.assertIn(f"torquescope_{VERSION}_amd64.deb", text_of("scripts", "packages", "README.md"))
+        self.assertIn(f"\n## {VERSION}\n", text_of("CHANGELOG.md"))
 
 
 if __name__ == "__main__":

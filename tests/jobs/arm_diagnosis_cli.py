@@ -51,7 +51,7 @@ def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0, other=None, simula
 
 
 def shoulder_spring(moves, _t=None):
-    """A law of the machine that its user knows: a counterbalance at the shoulder."""
+    """An effect of the machine that its user knows: a counterbalance at the shoulder."""
     return 6.0 * moves[0][0], 0.0
 
 
@@ -145,7 +145,7 @@ class ArmDiagnosis(arm_cli.Arm):
         first, second = told["joints"]
         self.assertEqual([one["name"] for one in first["effects"]], ["spring"], told["reason"])
         self.assertEqual(second["effects"], [], told["reason"])
-        # before: the rigid arm as it is fitted without the law, which is not far off
+        # before: the rigid arm as it is fitted without the effect, which is not far off
         self.assertLess(first["baseline"]["validation_relerr"], 0.012)
         self.assertLess(first["augmented"]["validation_relerr"], 0.7 * first["baseline"]["validation_relerr"])
         os.remove(os.path.join(self.folder, "told.h5"))

@@ -1,5 +1,5 @@
 """A diagnosis of each kind that costs next to nothing ends in its verdict: a recording at fault, one that is too poor,
-a sound one, and one that no single law explains. (One effect named: structure/readme_commands.py.)"""
+a sound one, and one that no single effect explains. (One effect named: structure/readme_commands.py.)"""
 
 import csv
 import json

@@ -1,4 +1,4 @@
-"""A job as it is, or with another number of twins, where its relative paths still lead to its recordings.
+"""A job as it is, or with another number of replicates, where its relative paths still lead to its recordings.
 
 A foreign folder is left as it was found. The copy stands in a tree of links: folders on the way to the job are made,
 everything beside them is a link to the original.
@@ -12,7 +12,7 @@ import tomllib
 
 
 def with_twins(text, twins):
-    """The job with so many twins; as it was for None."""
+    """The job with so many replicates; as it was for None."""
     if twins is None:
         return text
     wanted = tomllib.loads(text)

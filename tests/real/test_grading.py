@@ -1,4 +1,4 @@
-"""One answer against one verdict, each made by hand: the laws of the grades."""
+"""One answer against one verdict, each made by hand: the rules of the grades."""
 
 import json
 import pathlib

@@ -120,7 +120,7 @@ class RunReal(unittest.TestCase):
         code, text, _ = self.run_real("--only", "right")
         self.assertEqual((code, len(self.called())), (0, 2))
         self.assertIn("(kept)", text)
-        # another number of twins, another recording, another program: again
+        # another number of replicates, another recording, another program: again
         self.run_real("--only", "right", "--twins", "30")
         self.assertEqual(len(self.called()), 3)
         os.utime(self.folder / "rig" / "train.csv", (1, 1))

@@ -24,7 +24,7 @@ import make_servo  # noqa: E402
 import torquescope as ts  # noqa: E402
 from torquescope.reader import Result, Servo, summary  # noqa: E402
 
-TWO = ("m0.5_l150_kp32_steps.csv", "m0.75_l150_kp32_steps.csv")  # of training, unseen
+TWO = ("m0.5_l150_kp32_steps.csv", "m0.75_l150_kp32_steps.csv")  # of training, validation
 
 
 class ReadsServos(unittest.TestCase):

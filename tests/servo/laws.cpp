@@ -28,7 +28,7 @@ ServoNumbers draw_once(std::uint64_t seed, std::uint64_t attempt, std::vector<st
   servo.coulomb = draw(chance, 0.07, 0.13);
   servo.motor_gain = draw(chance, 0.20, 0.26);
   servo.back_emf = draw(chance, 0.12, 0.25);
-  // a law's number does not hang on which others there are
+  // an effect's number does not hang on which others there are
   Chance of_laws{seed, Purpose::law_numbers, attempt};
   for (Law const& law : laws) {
     double const number = draw(of_laws, law.low, law.high);

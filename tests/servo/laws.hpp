@@ -1,5 +1,5 @@
 #pragma once
-// A servo's numbers, drawn: what every servo has, and the laws that a set is told to have.
+// A servo's numbers, drawn: what every servo has, and the effects that a set is told to have.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace servo {
 
 struct Law {
   char const* name;
-  double low, high, without;  // range that its number is drawn from, and the number that is no such law
+  double low, high, without;  // range that its number is drawn from, and the number that is no such effect
   double ServoNumbers::*number;
 };
 

@@ -14,7 +14,7 @@ namespace servo {
 
 struct SetOptions {
   std::uint64_t seed = 1;
-  std::vector<std::string> with;                              // laws
+  std::vector<std::string> with;                              // effects
   std::vector<double> masses{0.5, 1.0}, unseen_masses{0.75};  // kg
   std::vector<double> lengths{0.1, 0.15}, kps{8.0, 32.0};     // m, firmware units
   double supply_v = 12.0, duration_s = 6.0, jitter_s = 0.0;
@@ -34,7 +34,7 @@ struct RecordSet {
 
 RecordSet draw_set(SetOptions const& options);
 
-// Mean change of the position that a law makes, over all samples of the entries
+// Mean change of the position that an effect makes, over all samples of the entries
 double effect_rad(RecordSet const& set, std::string const& law);
 
 void write_set(SetOptions const& options, std::filesystem::path const& folder);

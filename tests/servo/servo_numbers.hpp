@@ -2,7 +2,7 @@
 // What a servo is, in numbers, and what is screwed to it. Nothing of the engine.
 //
 // Units      SI: rad, s, V, N m, kg, m
-// Without    a law's number at its default is no such law
+// Without    an effect's number at its default is no such effect
 
 #include <limits>
 

@@ -103,7 +103,7 @@ void write_effect(Case const& which, Text& out) {
   about.close();
 }
 
-// Laws of the catalogue that are in the joint although the board does not count them as hidden: to name them is true
+// Effects of the catalogue that are in the joint although the board does not count them as hidden: to name them is true
 void write_besides(Case const& which, Text& out) {
   out << "[";
   bool const has_lag = which.rig.reading.commanded, bends = which.rig.sticking.has_bristles();

@@ -1,5 +1,5 @@
 #pragma once
-// One law of physics that the job's model lacks. Names, families and parameters are the words of the engine's catalogue
+// One effect that the job's model lacks. Names, families and parameters are the words of the engine's catalogue
 // (`torquescope describe NAME`); the equations are written here anew, each times an amplitude that is fitted to a size.
 //
 // torque    of the joint, resists motion like friction does: J dv/dt = given - ... - amplitude torque

@@ -31,11 +31,9 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
   if (already_complete(output, experiment.inputs_sha256(), ResultKind::runs)) {
     session.note(session.topic_line("done", "already complete: nothing is merged again"));
-    ResultSummary const summary = read_summary(output);
-    print_results(session, summary);
-    note_whereabouts(session, "kept", output);
+    ExitCode const code = end_with_results(session, read_summary(output), "kept", output);
     tidy_up(session, output, experiment.inputs_sha256());
-    return ExitCode::ok;
+    return code;
   }
   IdentifyOptions options;
   options.threads = choose_threads(arguments.threads);
@@ -59,10 +57,7 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
     report = merge(std::move(experiment), options, arguments.partial ? Completeness::partial : Completeness::whole,
                    [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }
-  ResultSummary const summary = summary_of(*report.result);
-  print_results(session, summary);
-  note_whereabouts(session, "wrote", output);
-  return ExitCode::ok;
+  return end_with_results(session, summary_of(*report.result), "wrote", output);
 }
 
 }  // namespace

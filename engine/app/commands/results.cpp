@@ -1,5 +1,6 @@
 #include "engine/app/commands/results.hpp"
 
+#include "engine/app/commands/notes.hpp"
 #include "engine/app/result/paper_tables.hpp"
 #include "engine/app/result/result_json.hpp"
 #include "engine/app/result/result_tables.hpp"
@@ -8,12 +9,15 @@
 
 namespace torquescope {
 
-void print_results(Session const& session, ResultSummary const& summary) {
+ExitCode end_with_results(Session const& session, ResultSummary const& summary, std::string const& word,
+                          std::filesystem::path const& file) {
   session.note("\n");
   session.result(warning_lines(summary, session.result_ink()));
   session.result(result_table(summary, session.result_ink()));
   session.result(paper_tables(summary, session.result_ink()));
   session.document(result_json(summary));
+  note_whereabouts(session, word, file);
+  return ExitCode::ok;
 }
 
 void verify_before_page(std::filesystem::path const& result) {

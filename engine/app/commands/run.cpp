@@ -15,6 +15,7 @@
 #include "engine/app/terminal/environment.hpp"
 #include "engine/app/terminal/interrupt.hpp"
 #include "engine/base/heap.hpp"
+#include "engine/experiment/experiment_parts.hpp"
 #include "engine/workflows/workflows.hpp"
 
 namespace torquescope {
@@ -74,11 +75,9 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   if (already_complete(output, experiment.inputs_sha256(), ResultKind::runs, arguments.continued)) {
     session.note(session.topic_line("job", experiment.job_line()));
     session.note(session.topic_line("done", "already complete: nothing runs again"));
-    ResultSummary const summary = read_summary(output);
-    print_results(session, summary);
-    note_whereabouts(session, "kept", output);
+    ExitCode const code = end_with_results(session, read_summary(output), "kept", output);
     tidy_up(session, output, experiment.inputs_sha256());
-    return ExitCode::ok;
+    return code;
   }
 
   IdentifyOptions options;
@@ -113,10 +112,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
     report = identify(std::move(experiment), options,
                       [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }
-  ResultSummary const summary = summary_of(*report.result);
-  print_results(session, summary);
-  note_whereabouts(session, "wrote", output);
-  return ExitCode::ok;
+  return end_with_results(session, summary_of(*report.result), "wrote", output);
 }
 
 }  // namespace

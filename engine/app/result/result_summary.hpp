@@ -35,7 +35,7 @@ struct EstimatorSummary {
   double residual_std_median = 0.0;
   std::map<std::string, std::int64_t> stop_reasons;  // how many runs ended for which reason
   std::int64_t evaluations = 0;
-  // of an arm, of the median run: one a joint; unseen ones are empty without unseen data
+  // of an arm, of the median run: one a joint; validation ones are empty without validation data
   std::vector<double> joint_relerr, joint_relerr_all_rows, unseen_joint_relerr, unseen_joint_relerr_all_rows;
   double relerr_all_rows = 0.0, unseen_relerr_all_rows = 0.0;
 };

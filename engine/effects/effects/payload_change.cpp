@@ -4,7 +4,7 @@
 // Parameters payload_inertia dJ [kg m2; kg], not below minus the baseline's; payload_gravity_sin [N m; none on a
 // slide],
 //            payload_gravity_cos [N m; N: the weight along the slide], either sign; payload_time t_c [s]
-// Signature  time: a step in acceleration and position laws
+// Signature  time: a step in acceleration and position effects
 // Confused   sensor_drift, friction_drift
 // Source     Gaz, De Luca 2017 (payload parameters)
 

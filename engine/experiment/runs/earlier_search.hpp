@@ -5,7 +5,7 @@
 // Refused    78 for each: settings or recordings that differ in anything but stop rules (which ones, in words); a stop
 //            rule stricter than it was, which might have ended a run earlier; other limits for a method that plans by
 //            them; fitness made in another way; another program, unless that is allowed; no states to go on from
-// Free       names, number of runs, [output], unseen recordings, other estimators; wall_clock_s counts anew
+// Free       names, number of runs, [output], validation recordings, other estimators; wall_clock_s counts anew
 // Threads    free functions; reading as HDF5
 
 #include <filesystem>

@@ -21,7 +21,7 @@ struct RunResults {
   std::vector<Eigen::VectorXd> parameters;
   std::vector<double> gap;  // MSE above the OLS floor
   std::vector<PredictionMetrics> train;
-  std::vector<PredictionMetrics> validate;  // empty when there is no unseen data
+  std::vector<PredictionMetrics> validate;  // empty when there is no validation data
   std::vector<std::string> stop_reason;
   std::vector<std::int64_t> evaluations;
   std::vector<std::int64_t> nonfinite;

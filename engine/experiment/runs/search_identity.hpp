@@ -1,7 +1,7 @@
 #pragma once
 // What the numbers of a population method's runs follow from, but the program: its own section of the job, every
 // section that makes the data and the model, the seed, the training recordings. Not: names, the number of runs,
-// [output], [diagnose], other estimators, unseen recordings.
+// [output], [diagnose], other estimators, validation recordings.
 //
 // Threads    free functions
 

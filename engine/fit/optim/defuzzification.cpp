@@ -61,10 +61,6 @@ std::vector<std::string> const& defuzzification_words() {
   return words;
 }
 
-double aggregated_membership(FuzzyVariable const& output, SetLevels const& levels, double y) {
-  return aggregated(memberships(output, y), levels);
-}
-
 double closed_centroid(FuzzyVariable const& output, SetLevels const& levels) {
   auto const ends = piece_ends(output, levels);
   double area = 0.0;

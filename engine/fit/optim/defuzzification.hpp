@@ -24,9 +24,6 @@ enum class Defuzzification { centroid, centroid_closed, weighted_average };
 // in the order of the enum
 std::vector<std::string> const& defuzzification_words();
 
-// membership of the aggregated output set at y
-double aggregated_membership(FuzzyVariable const& output, SetLevels const& levels, double y);
-
 double closed_centroid(FuzzyVariable const& output, SetLevels const& levels);
 double weighted_average(FuzzyVariable const& output, SetLevels const& levels);
 

@@ -5,8 +5,6 @@
 
 namespace torquescope {
 
-FuzzySet rule_conclusion(FuzzySet first, FuzzySet second) { return std::max(first, second); }
-
 SetLevels clip_levels(SetLevels const& first, SetLevels const& second) {
   auto const [a_small, a_middle, a_big] = first;
   auto const [b_small, b_middle, b_big] = second;

@@ -19,9 +19,6 @@
 
 namespace torquescope {
 
-// of the sets the inputs belong to, the larger one
-FuzzySet rule_conclusion(FuzzySet first, FuzzySet second);
-
 // at which level the rules together clip each output set
 SetLevels clip_levels(SetLevels const& first, SetLevels const& second);
 

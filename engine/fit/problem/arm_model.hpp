@@ -1,11 +1,11 @@
 #pragma once
 // The model of an arm as linear parameters: the base parameters of its links and drives, the friction of each joint,
-// laws at held shapes, what is not known of its payloads, the errors of its drive gains.
+// effects at held shapes, what is not known of its payloads, the errors of its drive gains.
 //
 // Equation   (1 + g_j) tau_j = y_j(q, dq, ddq) (chi + payload) + f_j(q_j, dq_j, ddq_j) phi_j; row j has the links from
 //            j on, its own drive and its own friction; the column of g_j is - tau_j. Drives that turn with several
 //            joints (SerialChain::transmission): motor m has f_m and its inertia at T_m q, and row j feels T_mj of it
-// Order      base parameters (robot/base_parameters.hpp); friction of joint 1, 2, ...: "viscous_3"; laws: "stribeck_2";
+// Order      base parameters (robot/base_parameters.hpp); friction of joint 1, 2: "viscous_3"; effects: "stribeck_2";
 //            unknown numbers of each payload (robot/payload.hpp): "payload1_mx6"; "gain_error_3"
 // Shapes     N joints, R parameters, n samples
 // Errors     Error 78 as Regressor(), of the effects that each joint has beside the rigid arm
@@ -26,7 +26,7 @@
 
 namespace torquescope {
 
-// a law of one joint whose shape is held: its torque is linear in what is left
+// an effect of one joint whose shape is held: its torque is linear in what is left
 struct HeldLaw {
   Effect const* effect = nullptr;
   std::size_t joint = 0;
@@ -82,9 +82,9 @@ class ArmModel {
   std::vector<Eigen::Index> const& gain_columns() const { return gains_; }
   std::vector<PayloadColumns> const& payloads() const { return payloads_; }
   std::vector<HeldLaw> const& laws() const { return terms_.laws; }
-  // the same arm with these laws in place of its own
+  // the same arm with these effects in place of its own
   ArmModel with_laws(std::vector<HeldLaw> laws) const;
-  // [N] n x n_linear of a law as each joint feels it, empty where none does, zero of an unknown shape; rows: as rows()
+  // [N] n x n_linear of an effect as joints feel it, empty where none does, zero of an unknown shape; rows: as rows()
   std::vector<Eigen::MatrixXd> law_columns(HeldLaw const& law, std::vector<Motion> const& motion,
                                            std::vector<Eigen::MatrixXd> const& rows) const;
 

@@ -1,7 +1,7 @@
 #pragma once
 // A position that was taken in the wrong unit, told by the torque: sin(f q) fits for one f alone.
 //
-// Equation   e(f) = min ||tau - phi(f q) parameters|| / ||tau||; asked of models with a law that is no power of q
+// Equation   e(f) = min ||tau - phi(f q) parameters|| / ||tau||; asked of models with an effect that is no power of q
 // Tried      units that people forget (known_factors.hpp), and every f < 1 with which the joint turns between half a
 //            radian and two turns: the ratio of a gear. The sign is not among them: it only turns parameters round
 // Told       e(1) is at least five times e(f); e(f / 2), e(2 f) and the error of the model as written beside a spring

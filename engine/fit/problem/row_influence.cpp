@@ -1,8 +1,9 @@
 #include "engine/fit/problem/row_influence.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 namespace {
@@ -29,7 +30,8 @@ struct RowInfluences::State {
   Eigen::VectorXd change(LeftOutRows const& block, Eigen::VectorXd const& residual_now) const {
     auto const rows = phi.middleRows(block.first, block.count());
     Eigen::MatrixXd const others = product - rows.transpose() * rows;
-    return others.ldlt().solve(rows.transpose() * residual_now.segment(block.first, block.count()));
+    return solve_semidefinite(others,
+                              Eigen::VectorXd(rows.transpose() * residual_now.segment(block.first, block.count())));
   }
 
   LeftOutRows block_around(Eigen::Index row) const {

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index most_rows_beside = 20000;  // a check must not cost a fit
-constexpr Index knots = 12;                // per axis: laws of friction and weight bend less often than that
+constexpr Index knots = 12;                // per axis: effects of friction and weight bend less often than that
 constexpr Index fewest_rows_a_column = 5;
 constexpr double dependent = 1e-7;  // of the largest pivot: hats of every axis sum to one
 

@@ -1,6 +1,6 @@
 #pragma once
 // How far least-squares coefficients move when a tenth of the record is left out: what an interval must cover when a
-// law fits one part of the motion with one number and another part with another.
+// effect fits one part of the motion with one number and another part with another.
 //
 // Equation   std^2 = (B - 1) / B sum_b (theta_b - mean theta)^2, theta_b without block b of B = 10 blocks of
 //            consecutive rows

@@ -7,7 +7,7 @@
 //            sum(e)^2 / sum(e^2) - 1
 //            lower: the energy over all blocks falls, and t is above the 95 % quantile of Student's t
 // Which      alike asks whether a gain holds all over the recording, which replicates of a model that is not adequate
-//            cannot say; beside an adequate model a law that acts in few blocks is judged by these
+//            cannot say; beside an adequate model an effect that acts in few blocks is judged by these
 // Error      Newey, West 1987 (Bartlett weights, cube root of the blocks as lags), at least that of independent blocks
 // Shapes     blocks in time order, recordings one after another; each at least as long as the filter remembers
 // Undecided  fewer than eight blocks, or numbers that are none

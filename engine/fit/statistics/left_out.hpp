@@ -5,7 +5,7 @@
 //            left inside it: |y_F - Q_F b|^2, F the fold without its guard. r = left_out_ridge: a direction that only
 //            the left-out rows hold is predicted as nothing
 // Folds      whole: ten equal stretches. interleaved: stretches as short as the guard, every tenth left out together,
-//            for laws that act in one stretch of the record
+//            for effects that act in one stretch of the record
 // Shapes     n rows, m signals; products: k x m for the k columns of a basis
 // Threads    const object
 // Source     Hoaglin, Welsch 1978, doi:10.1080/00031305.1978.10479237 (downdate); Burman, Chow, Nolan 1994,

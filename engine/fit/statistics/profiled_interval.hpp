@@ -3,7 +3,7 @@
 //
 // Equation   from s_0 to both sides as far as gain(s_0) - gain(s) <= 1.96^2 noise + hidden; gain(s): energy explained
 //            with the parameter at s, all others solved for; noise: energy of a row's own noise; hidden: energy that a
-//            slightly wrong law may have wrong here
+//            slightly wrong effect may have wrong here
 // Search     outwards in doubling steps, then by halves; never outside the bounds
 // Threads    free function
 // Source     profile likelihood: Venzon, Moolgavkar 1988, doi:10.2307/2347496

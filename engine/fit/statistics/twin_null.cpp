@@ -10,7 +10,7 @@ namespace torquescope {
 
 namespace {
 
-// the share of the twins that the exponential tail is fitted to
+// the share of the replicates that the exponential tail is fitted to
 constexpr double tail_share = 0.25;
 
 struct Moments {
@@ -29,7 +29,7 @@ Moments moments_of(std::span<double const> values) {
 
 double ratio(double difference, double spread) {
   if (spread > 0.0) return difference / spread;
-  // twins that all agree: any difference is infinitely unusual, none is not
+  // replicates that all agree: any difference is infinitely unusual, none is not
   return difference == 0.0 ? 0.0 : std::copysign(HUGE_VAL, difference);
 }
 
@@ -48,7 +48,7 @@ double tail_p(double data, std::span<double const> twins) {
   std::sort(sorted.begin(), sorted.end());
   auto const tail_size = static_cast<std::size_t>(tail_share * static_cast<double>(sorted.size()));
   double const threshold = sorted[sorted.size() - tail_size - 1];
-  // inside the twins the count is exact enough; beyond their tenth largest the fitted tail has less variance
+  // inside the replicates the count is exact enough; beyond their tenth largest the fitted tail has less variance
   if (data <= threshold || counted > 10.0 / static_cast<double>(sorted.size())) return counted;
   double excess = 0.0;
   for (std::size_t i = sorted.size() - tail_size; i < sorted.size(); ++i) excess += sorted[i] - threshold;

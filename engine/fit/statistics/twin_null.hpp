@@ -1,7 +1,7 @@
 #pragma once
 // How unusual a statistic of the data is among the same statistic of its replicates: the null of every claim.
 //
-// Shapes     twins: one value per replicate, M of them
+// Shapes     replicates: one value per replicate, M of them
 // p          empirical: (1 + number of replicates at or above) / (M + 1), valid for any M; tail: from M = 200 on an
 //            exponential beyond the upper quartile, so that a test over many candidates can reject
 // z          (data - mean) / (spread * sqrt(1 + 1/M)); a replicate's own z is made without it, standardised_twins()
@@ -16,14 +16,14 @@
 
 namespace torquescope {
 
-// twins from which a tail is fitted
+// replicates from which a tail is fitted
 inline constexpr std::size_t fewest_twins_for_tail = 200;
 
 double empirical_p(double data, std::span<double const> twins);
 double tail_p(double data, std::span<double const> twins);
 double twin_z(double data, std::span<double const> twins);
 
-// z of every twin against all others (closed form): what the maximum over several statistics must be compared with.
+// z of each replicate against the others (closed form): what the maximum over several statistics must be compared with.
 // In-sample z are too small by up to sqrt(M / (M - 1)) and more for outliers, which makes any scan look significant.
 std::vector<double> standardised_twins(std::span<double const> twins);
 

@@ -51,7 +51,7 @@ std::vector<std::string> joint_names(SerialChain const& chain) {
   return names;
 }
 
-// laws beside the rigid arm: their shapes; what is linear in them stands among the parameters
+// effects beside the rigid arm: their shapes; what is linear in them stands among the parameters
 void write_laws(ResultWriter& writer, ArmModel const& model) {
   std::vector<std::string> names;
   std::vector<double> values;

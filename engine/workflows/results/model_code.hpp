@@ -24,7 +24,7 @@ struct ModelledJoint {
   std::string name;
 };
 
-// double NAME(double q, double dq, double ddq[, double load]); "" when no law has code. remarks: lines of its comment
+// double NAME(double q, double dq, double ddq[, double load]); "" when none has code. remarks: lines of its comment
 std::string c_function(std::vector<ModelLaw> const& laws, LawLevels const& levels, ModelledJoint const& joint,
                        std::vector<std::string> const& remarks = {});
 // the same as a file of its own

@@ -151,7 +151,7 @@ def of_recordings(count, seconds, has_laws=True):
 
 
 def servo(path, count=18, seconds=4):
-    """Two laws, one with a rival; several of validation, and tables of what was left out."""
+    """Two effects, one with a rival; several of validation, and tables of what was left out."""
     ones, signals = of_recordings(count, seconds)
     headline = "explained by Delay of the command 0.0402 s; Load-dependent friction 0.1488"
     notes = [("always_on", "The drive is never off: viscous friction and back-EMF are one number.")]

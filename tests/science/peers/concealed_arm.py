@@ -3,7 +3,7 @@
     concealed_arm.py TORQUESCOPE
 
 Three joints under proportional-derivative control follow sums of sines. Torques are logged with noise, positions by an
-encoder. One joint has something the model lacks; the answer is its joint and its law, or a class with it. A complete
+encoder. One joint has something the model lacks; the answer is its joint and its effect, or a class with it. A complete
 arm gets no name. Exit code 77 where MuJoCo is absent (scripts/install-peers).
 """
 import json

@@ -1,5 +1,5 @@
-// Solving linear parameters inside a search of the shapes finds the same law as a search in everything, with a fraction
-// of its evaluations.
+// Solving linear parameters inside a search of the shapes finds the same effect as a search in everything, with a
+// fraction of its evaluations.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,9 @@
 #pragma once
-// Mismatches whose law is known: what a complete model leaves of a simulated recording, and one effect of drawn shape.
+// Mismatches whose effect is known: what a complete model leaves of a simulated recording, and one effect of drawn
+// shape.
 //
-// Equation   mismatch = (residual - twin mean) of the clean recording + columns(shape) * linear, on the common rows
+// Equation   mismatch = (residual - mean replicate) of the clean recording + columns(shape) * linear, on the common
+//            rows
 // Recording  clean_joint() for 4 s in closed loop, with its encoder and its noise; baseline inertia, viscous, coulomb,
 //            offset
 // Law        shape: uniform over the middle three fifths of every range, in the unit scale; linear parameters: the same
@@ -11,7 +13,7 @@
 // Errors     std::runtime_error when no draw will do
 // Units      SI
 // Random     addressed by (recording, effect); simulated recordings by their number
-// Threads    plain records; CleanStage spreads its twins over `threads`
+// Threads    plain records; CleanStage spreads its replicates over `threads`
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -24,7 +26,7 @@ namespace torquescope::test {
 
 inline constexpr double loudness = 5.0;
 
-// one clean recording with its twins; the parts look into each other
+// one clean recording with its replicates; the parts look into each other
 struct CleanStage {
   CleanStage(std::uint32_t number, int threads);
   CleanStage(CleanStage const&) = delete;

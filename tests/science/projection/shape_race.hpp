@@ -1,6 +1,6 @@
 #pragma once
-// Who finds the law of a planted mismatch with fewer evaluations: a search in the shapes alone, the linear parameters
-// solved inside, or the same optimiser in all parameters at once.
+// Who finds the effect of a planted mismatch with fewer evaluations: a search in the shapes alone, the linear
+// parameters solved inside, or the same optimiser in all parameters at once.
 //
 // Evaluation one = the columns of the effect at one shape, through the filter, and an energy; points of a grid count
 // Energy     of mismatch - baseline columns * shifts - columns(shape) * linear, on the common rows; both objectives are

@@ -29,7 +29,7 @@ std::string job_for(std::string const& name) {
   return job;
 }
 
-// relative error of wls on the unseen rows that move one way, and on all
+// relative error of wls on the validation rows that move one way, and on all
 std::pair<double, double> unseen_errors(std::string const& job) {
   test::TemporaryFolder const folder;
   IdentifyOptions options;

@@ -1,5 +1,5 @@
 // What is said of errors never contradicts them: no likeness beside a small p, no gap below the floor, no silence where
-// the unseen recording is of another kind.
+// the validation recording is of another kind.
 
 #include "engine/account/error_words.hpp"
 
@@ -97,7 +97,7 @@ TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
   joint.augmented_validation_relerr = 0.052;
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Validation error 12.1 % to 5.2 %, floor 4.9 %."));
-  // where the twins are louder than the recording there is none
+  // where the replicates are louder than the recording there is none
   joint.floor_relerr = unknown;
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Validation error 12.1 % to 5.2 %."));
 }
@@ -118,7 +118,7 @@ TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind
     joint.floor_relerr = 0.01;
     EXPECT_THAT(reason_sentence(diagnosis), HasSubstr(said));
     EXPECT_THAT(way_out_of_a_fault(joint), Not(HasSubstr("needs nothing more")));
-    // what naming mends was missing in training as well; and twins that leave as much expect no less
+    // what naming mends was missing in training as well; and replicates that leave as much expect no less
     joint.augmented_validation_relerr = 0.02;
     EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
     joint.augmented_validation_relerr = 0.184;

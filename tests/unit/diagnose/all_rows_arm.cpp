@@ -1,4 +1,4 @@
-// An arm decided on all samples: a complete one lacks nothing, a law is named at its joint alone, on any number of
+// An arm decided on all samples: a complete one lacks nothing, an effect is named at its joint alone, on any number of
 // threads.
 
 #include "engine/diagnose/all_rows_arm.hpp"

@@ -44,7 +44,7 @@ Verdict verdict_beside(JointOutcome const& alone, JointOutcome refitted) {
 }
 
 TEST(BesideSharedArm, ErrorsBeforeAreOfTheArmAlone) {
-  // without its law the refitted arm is far off, which is nobody's gain
+  // without its effect the refitted arm is far off, which is nobody's gain
   auto const told = beside_shared_arm(outcome(0.03, 0.03, false), outcome(0.09, 0.02, true), {}, memory);
   JointDiagnosis const& joint = told.diagnosis.joints.front();
   EXPECT_EQ(told.diagnosis.verdict, Verdict::named);

@@ -1,5 +1,5 @@
-// A motion that cannot tell some laws is searched for the others: the torque of a motor that turns one way, a spring
-// from strokes at one speed. And what a simulator explains leaves unseen recordings as it leaves the training one.
+// A motion that cannot tell some effects is searched for the others: the torque of a motor that turns one way, a spring
+// from strokes at one speed. And what a simulator explains leaves validation recordings as it leaves the training one.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

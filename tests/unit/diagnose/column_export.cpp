@@ -1,5 +1,5 @@
 // What other methods are given: the columns belong to the residual they are to explain, the shape is the one that
-// explains most, an unseen recording gets the same shapes, and the number of threads leaves no trace.
+// explains most, a validation recording gets the same shapes, and the number of threads leaves no trace.
 
 #include "engine/diagnose/column_export.hpp"
 

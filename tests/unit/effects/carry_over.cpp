@@ -1,4 +1,4 @@
-// What laws of the catalogue say of a recording that they were not fitted to.
+// What effects of the catalogue say of a recording that they were not fitted to.
 
 #include "engine/effects/carry_over.hpp"
 

@@ -1,4 +1,4 @@
-// Laws that every listed effect obeys.
+// Rules that every listed effect obeys.
 
 #include <gtest/gtest.h>
 
@@ -132,7 +132,7 @@ TEST_P(EveryEffect, DoesNotCareWhenTheClockStarted) {
 TEST_P(EveryEffect, HasTheParityItClaims) {
   auto const& effect = *GetParam();
   KnownJoint joint;
-  joint.parameters = {0.05, 0.2, 0.3, -0.3, 1.2, -0.4};  // unequal levels are no law's parity
+  joint.parameters = {0.05, 0.2, 0.3, -0.3, 1.2, -0.4};  // unequal levels are no effect's parity
 
   if (effect.has_memory()) {  // dq -> -dq means another past: mirror the whole motion instead
     if (effect.parity() != Parity::odd) return;

@@ -1,4 +1,4 @@
-// The code of an effect, compiled by a C compiler, against the engine's own law.
+// The code of an effect, compiled by a C compiler, against the engine's own columns.
 
 #include "engine/effects/instant_code.hpp"
 

@@ -1,4 +1,4 @@
-// What friction and other laws of the instant do, by themselves.
+// What friction and other effects of the instant do, by themselves.
 
 #include <gtest/gtest.h>
 

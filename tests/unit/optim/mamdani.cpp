@@ -43,13 +43,6 @@ double nine_rule_centroid(double a, double b) {
   return moment / area;
 }
 
-TEST(FadeRules, AreTheLargerOfBothSets) {
-  for (auto const& rule : table_2) {
-    EXPECT_EQ(rule_conclusion(static_cast<FuzzySet>(rule.first), static_cast<FuzzySet>(rule.second)),
-              static_cast<FuzzySet>(rule.conclusion));
-  }
-}
-
 TEST(FadeRules, ClipThreeSetsExactlyAsNineRulesDo) {
   for (std::uint32_t draw = 0; draw < 5000; ++draw) {
     RandomStream random({9, 0, RandomDomain::test}, draw, 0);

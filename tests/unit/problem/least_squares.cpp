@@ -1,4 +1,4 @@
-// Laws of ols and wls, and of the words that every estimator owes its user.
+// Properties of ols and wls, and of the words that every estimator owes its user.
 
 #include "engine/fit/problem/least_squares.hpp"
 

@@ -88,6 +88,7 @@ TEST(Mjcf, OrientationsAreThoseOfTheReference) {
       {"", "quat='2 0.4 0.6 -0.2'", Eigen::Quaterniond(2, 0.4, 0.6, -0.2).normalized().toRotationMatrix()},
       {"", "xyaxes='3 4 0 1 9 0'", axes},
       {"", "zaxis='1 0 1'", about(y, pi / 4)},
+      {"", "zaxis='0 0 -2'", about(x, pi)},
   };
   for (auto const& one : cases) {
     auto const chain = read(model("<body name='a'><joint axis='0 0 1'/><body name='b' pos='0.1 0.2 0.3' " +

@@ -96,7 +96,7 @@ TEST(CleanTwin, HasNoiseOfItsOwnInEveryLaneGroupAndSet) {
     Eigen::VectorXd const other = torque - recording.torque;
     return noise.dot(other) / (noise.norm() * other.norm());
   };
-  // each difference holds the recording's own noise: 1/2; twins that shared theirs would show 1
+  // each difference holds the recording's own noise: 1/2; replicates that shared theirs would show 1
   for (auto const* torque : {&group.torque[1], &next.torque[0], &other_set.torque[0]})
     EXPECT_NEAR(correlation(*torque), 0.5, 0.1);
 }

@@ -39,7 +39,7 @@ HeldOutGain gain_of(Eigen::VectorXd const& before, Eigen::VectorXd const& after,
   return held_out_gain(held_out_blocks(before, after, rows_per_block), which);
 }
 
-// a law of that torque, predicted with an error of its own size times `wrong`
+// an effect of that torque, predicted with an error of its own size times `wrong`
 HeldOutGain with_law(Eigen::VectorXd const& law, double wrong, unsigned seed, Blocks which) {
   Eigen::VectorXd const left = noise(rows, seed);
   return gain_of(left + law, left + wrong * law.cwiseProduct(noise(rows, seed + 1)), which);

@@ -1,4 +1,4 @@
-// Keys of a job about an arm: coupled drives and laws of joints, and what is refused.
+// Keys of a job about an arm: coupled drives and effects of joints, and what is refused.
 
 #include "engine/experiment/arm_keys.hpp"
 

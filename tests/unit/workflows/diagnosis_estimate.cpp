@@ -1,7 +1,7 @@
 // The estimate of a diagnosis is linear in what it is made of, and near what was measured.
 //
 // Measured on two cores of a Xeon (Sapphire Rapids), one effect found, 200 replicates, [simulate] of
-// jobs/concealed_stribeck.toml at 500 Hz with as long an unseen recording:
+// jobs/concealed_stribeck.toml at 500 Hz with as long a validation recording:
 //
 //   samples     rows    CPU s   peak MB
 //    10 000    1 000      6.4        53

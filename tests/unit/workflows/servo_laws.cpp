@@ -1,4 +1,4 @@
-// diagnose.effects of a set of servos: all laws of drive and gear, or those named, and refusals.
+// diagnose.effects of a set of servos: all effects of drive and gear, or those named, and refusals.
 
 #include "engine/experiment/servo_laws.hpp"
 

@@ -1,4 +1,4 @@
-// Every process gets every twin of a batch, whoever computed it: alone, late, beside others, after kills, and when
+// Every process gets every replicate of a batch, whoever computed it: alone, late, beside others, after kills, and when
 // files are missing, damaged or of another diagnosis. Twins here are numbers that name their place.
 
 #include "engine/workflows/twin_folder.hpp"
@@ -83,7 +83,7 @@ class SharedTwins : public testing::Test {
     result.tell = [this](std::string const&, std::string const& text) { told_ += text + "\n"; };
     return result;
   }
-  // how many twins one more process had to compute
+  // how many replicates one more process had to compute
   std::size_t computed_by_another(TwinFolder::Setting const& of) {
     Twins twins;
     TwinFolder folder(of);

@@ -25,7 +25,7 @@ FAMILY_AXES = {
     "acceleration": "acceleration",
     "order_locked": "position",
 }
-Z95 = 1.96  # of a normal spread: 95 % of the clean twins
+Z95 = 1.96  # of a normal spread: 95 % of the replicates
 
 
 def plain(name):

@@ -58,7 +58,7 @@ class MapRow:
     axis: str
     unit: str
     is_spectrum: bool
-    energy_share: float  # of the residual, beyond the twins
+    energy_share: float  # of the residual, beyond the replicates
     p: float
     start: np.ndarray
     stop: np.ndarray
@@ -86,7 +86,7 @@ class Candidate:
     q: float
     gain: float
     cv_gain: float
-    chance_z: float  # what 95 % of the twins stay below
+    chance_z: float  # what 95 % of the replicates stay below
 
 
 @dataclass
@@ -97,7 +97,7 @@ class Curve:
     at: np.ndarray
     partial: np.ndarray  # effect and what is left
     modelled: np.ndarray
-    spread: np.ndarray  # of one twin's mean
+    spread: np.ndarray  # of one replicate's mean
 
 
 @dataclass
@@ -202,7 +202,7 @@ class Joint:
     mismatch_rms: float
     left_rms: float
     power_sentence: str
-    friction_sign_forward: float  # what laws took from the fitted baseline; NaN: not in the file
+    friction_sign_forward: float  # what effects took from the fitted baseline; NaN: not in the file
     friction_sign_backward: float
     baseline_inertia: float
     model_c: str  # the model as code; "": there is none

@@ -42,7 +42,7 @@ class KeptLaw:
     gain: float  # D, against the final model without it
     p: float  # of chance, among replicates
     parameters: dict[str, Parameter]
-    rivals: list[str]  # laws that explain these recordings about as well
+    rivals: list[str]  # effects that explain these recordings about as well
 
 
 @dataclass
@@ -90,7 +90,7 @@ class ServoMove:
 class ServoStep:
     """One model of the search, and every effect that was tried beside it."""
 
-    model: list[str]  # laws in it
+    model: list[str]  # effects in it
     replicates: int
     moves: list[ServoMove]
 
@@ -107,11 +107,11 @@ class Servo:
     left_rms: float  # of the position in training, after
     replicates_rms: float  # the same of replicates of the model
     kept: list[KeptLaw]
-    parameters: dict[str, Parameter]  # with the laws that were kept
+    parameters: dict[str, Parameter]  # with the effects that were kept
     parameters_before: dict[str, Parameter]
     notes: dict[str, str]  # {word: sentence}
     tables: dict[str, list[ServoRow]]  # {quantity: rows}
-    left_out: dict[str, list[ServoRow]]  # {quantity: rows}: numbers of the laws fitted without these recordings
+    left_out: dict[str, list[ServoRow]]  # {quantity: rows}: numbers of the effects fitted without these recordings
     recordings: list[ServoRecording]  # in the order of /replay
     steps: list[ServoStep]  # of the search, in its order
     document: dict = field(repr=False)  # all of it, as the file has it

@@ -7,7 +7,7 @@ from .. import diagnosed, quantities, readings, style
 from . import Case
 from .decision_surface import cells
 
-LIMITS = (2.5, 5.0, 10.0, 20.0)  # spreads of the twins from which on a step is drawn; below the first lies chance
+LIMITS = (2.5, 5.0, 10.0, 20.0)  # spreads of the replicates from which on a step is drawn; below the first lies chance
 AXIS_KEYS = {
     "since reversal": "Since reversal: how far the joint went since its motion, or its torque, last changed sign.",
     "order": "Order of angle: waves in a turn of the joint.",
@@ -180,7 +180,7 @@ def _legend(canvas, top, narrow):
     for k, limit in enumerate([*reversed(limits), *limits], start=1):
         canvas.text(left + k * step, top + 28, limit, ha="center", fontsize=10.5)
     canvas.text(left - 8, top + 28, "spreads" if narrow else "spreads of the replicates", ha="right")
-    # spectra have one side only: more than the twins
+    # spectra have one side only: more than the replicates
     left, top = (174, top + 38) if narrow else (938, top)
     canvas.text(left - 8, top + 12, "spectra: beyond" if narrow else "spectra: beyond the replicates", ha="right")
     _swatches(canvas, left, top + 1, [_colour(level, True) for level in range(5)], step)
