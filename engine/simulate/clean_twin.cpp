@@ -63,7 +63,8 @@ double longest_step_s(TwinJoint const& joint, StickingRange const& sticking, dou
   constexpr double fiftieth = 0.02;
   LaneJoint const& own = joint.lanes;
   double const decay = std::abs(own.viscous) / own.inertia;
-  double const swing = std::sqrt(std::hypot(own.gravity_sin, own.gravity_cos) / own.inertia);
+  double const swing =
+      std::sqrt(std::sqrt(own.gravity_sin * own.gravity_sin + own.gravity_cos * own.gravity_cos) / own.inertia);
   return std::clamp(fiftieth / std::max({decay, swing, fiftieth / tick_s}), std::min(step_s, tick_s), tick_s);
 }
 

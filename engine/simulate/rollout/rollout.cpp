@@ -319,7 +319,8 @@ double longest_step_s(RolloutTrial const& trial, RolloutStructure const& structu
   double const inertia = trial.joint.inertia;
   if (!(inertia > 0.0)) return tick_s;
   double const decay = std::abs(trial.joint.viscous + trial.loop.back_emf) / inertia;
-  double const swing = std::sqrt(std::hypot(trial.joint.gravity_sin, trial.joint.gravity_cos) / inertia);
+  double const sine = trial.joint.gravity_sin, cosine = trial.joint.gravity_cos;
+  double const swing = std::sqrt(std::sqrt(sine * sine + cosine * cosine) / inertia);
   double const own = fiftieth / std::max({decay, swing, fiftieth / tick_s});
   bool const remembers = std::any_of(structure.effects.begin(), structure.effects.end(),
                                      [](Effect const* effect) { return effect->has_memory(); });
