@@ -4,6 +4,7 @@
 
 #include <new>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "engine/base/contract.hpp"
@@ -18,6 +19,17 @@ Problem our_fault(std::string what) {
   problem.what = std::move(what);
   problem.help = "report it with the job file and this line; results so far are safe";
   return problem;
+}
+
+Problem out_of_memory() {
+  Problem problem = our_fault("out of memory");
+  problem.help = "fewer --threads, a smaller population or fewer generations need less";
+  return problem;
+}
+
+// a thread or a process that does not start, where memory or their number is limited
+bool is_a_limit(std::error_code const& code) {
+  return code == std::errc::resource_unavailable_try_again || code == std::errc::not_enough_memory;
 }
 
 // "broken promise in /home/me/torquescope/engine/a.cpp:88: x < y" -> "broken promise in engine/a.cpp:88 (our fault)"
@@ -44,9 +56,10 @@ std::vector<Problem> problems_of(std::exception_ptr failure) {
   } catch (BrokenPromise const& broken) {
     return {our_fault(promise_words(broken.what()))};
   } catch (std::bad_alloc const&) {
-    Problem problem = our_fault("out of memory");
-    problem.help = "fewer --threads, a smaller population or fewer generations need less";
-    return {problem};
+    return {out_of_memory()};
+  } catch (std::system_error const& error) {
+    if (is_a_limit(error.code())) return {out_of_memory()};
+    return {our_fault(fmt::format("unexpected: {} (our fault)", error.what()))};
   } catch (std::exception const& other) {
     return {our_fault(fmt::format("unexpected: {} (our fault)", other.what()))};
   } catch (...) {

@@ -12,6 +12,9 @@
 #include <fstream>
 #include <limits>
 #include <mutex>
+#include <new>
+#include <thread>
+#include <vector>
 
 namespace torquescope {
 
@@ -81,6 +84,29 @@ Stoppable::Stoppable(std::function<bool()> const& must_stop) : before_(stop_ques
 
 Stoppable::~Stoppable() { stop_question = before_; }
 
+namespace {
+
+// Where a limit of memory or of processes lets no thread start, libgomp ends the process with words and a code of its
+// own. So as many as the largest team has are started once before: std::bad_alloc where they do not start
+void require_threads(int team) {
+  static std::atomic<int> proven{1};
+  if (team <= proven.load()) return;
+  std::vector<std::thread> others;
+  bool all_start = true;
+  std::mutex gate;
+  try {
+    std::lock_guard const closed(gate);
+    for (int i = 1; i < team; ++i) others.emplace_back([&gate] { std::lock_guard const open(gate); });
+  } catch (std::exception const&) {
+    all_start = false;
+  }
+  for (auto& other : others) other.join();
+  if (!all_start) throw std::bad_alloc();
+  proven.store(std::max(team, proven.load()));
+}
+
+}  // namespace
+
 void parallel_for(std::size_t n, int threads, std::function<void(std::size_t, int)> const& task) {
   std::mutex guard;
   std::exception_ptr failure;
@@ -89,6 +115,7 @@ void parallel_for(std::size_t n, int threads, std::function<void(std::size_t, in
   std::atomic<std::size_t> next{0};
   int const team = static_cast<int>(
       std::min<std::size_t>(static_cast<std::size_t>(std::max(1, threads)), std::max<std::size_t>(1, n)));
+  require_threads(team);
   std::function<bool()> const* const question = stop_question;
   std::function<bool()> const nothing_to_ask;
 #pragma omp parallel num_threads(team)

@@ -2,7 +2,8 @@
 // The only place with OpenMP pragmas: independent tasks over threads, no barrier but the end.
 //
 // Errors     an exception inside a task does not cross the OpenMP region: the first one (by task index) is rethrown
-//            after all running tasks have ended; tasks not yet begun are skipped. Stopped, within a Stoppable
+//            after all running tasks have ended; tasks not yet begun are skipped. Stopped, within a Stoppable.
+//            std::bad_alloc where threads do not start
 // Threads    task(index, thread) runs at most once per index; thread < thread_count
 
 #include <cstddef>

@@ -64,6 +64,20 @@ void filter_block(std::vector<FilterSection> const& sections, Eigen::Ref<Eigen::
     filtered.row(i).segment(from, width) = block.col(pad + kept.first + i * kept.step).head(width);
 }
 
+// filtered: the signals themselves where every sample is kept, if the caller likes
+void filter_columns(std::vector<FilterSection> const& sections, Eigen::Ref<Eigen::MatrixXd const> const& signals,
+                    KeptSamples const& kept, Eigen::MatrixXd& filtered) {
+  [[maybe_unused]] TinyIsZero const tiny_is_zero;
+  [[maybe_unused]] Eigen::Index const n = signals.rows();
+  TORQUESCOPE_EXPECT(n > padding_of(sections) && kept.first >= 0 && kept.step >= 1);
+  TORQUESCOPE_EXPECT(kept.count == 0 || kept.first + (kept.count - 1) * kept.step < n);
+  for (Eigen::Index from = 0; from < signals.cols(); from += most_together) {
+    Eigen::Index const width = std::min(most_together, signals.cols() - from);
+    auto const filter_them = width <= 2 ? filter_block<2> : width <= 4 ? filter_block<4> : filter_block<most_together>;
+    filter_them(sections, signals, kept, from, width, filtered);
+  }
+}
+
 }  // namespace
 
 Eigen::Index padding_of(std::vector<FilterSection> const& sections) {
@@ -83,17 +97,13 @@ Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
 
 Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
                                    Eigen::Ref<Eigen::MatrixXd const> const& signals, KeptSamples const& kept) {
-  [[maybe_unused]] TinyIsZero const tiny_is_zero;
-  [[maybe_unused]] Eigen::Index const n = signals.rows();
-  TORQUESCOPE_EXPECT(n > padding_of(sections) && kept.first >= 0 && kept.step >= 1);
-  TORQUESCOPE_EXPECT(kept.count == 0 || kept.first + (kept.count - 1) * kept.step < n);
   Eigen::MatrixXd filtered(kept.count, signals.cols());
-  for (Eigen::Index from = 0; from < signals.cols(); from += most_together) {
-    Eigen::Index const width = std::min(most_together, signals.cols() - from);
-    auto const filter_them = width <= 2 ? filter_block<2> : width <= 4 ? filter_block<4> : filter_block<most_together>;
-    filter_them(sections, signals, kept, from, width, filtered);
-  }
+  filter_columns(sections, signals, kept, filtered);
   return filtered;
+}
+
+void zero_phase_in_place(std::vector<FilterSection> const& sections, Eigen::MatrixXd& signals) {
+  filter_columns(sections, signals, {0, signals.rows(), 1}, signals);
 }
 
 }  // namespace torquescope

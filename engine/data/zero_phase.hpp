@@ -29,5 +29,7 @@ Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
 
 Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
                                    Eigen::Ref<Eigen::MatrixXd const> const& signals, KeptSamples const& kept);
+// every sample of every column, one block of columns after the other: nothing as large as the signals beside them
+void zero_phase_in_place(std::vector<FilterSection> const& sections, Eigen::MatrixXd& signals);
 
 }  // namespace torquescope

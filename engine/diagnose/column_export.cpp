@@ -29,10 +29,10 @@ TwinComparison by_itself(RecordPipeline const& pipeline, ProcessedRecord record)
   rows.rate_hz = pipeline.kept_rate_hz();
   rows.kept_rows = record.kept_rows;
   auto const pick = [&](Eigen::VectorXd const& signal) { return pipeline.picked(signal, record); };
-  rows.time_s = pick(record.motion.time_s);
-  rows.q = pick(record.motion.q);
-  rows.dq = pick(record.motion.dq);
-  rows.ddq = pick(record.motion.ddq);
+  rows.time_s = pick(record.motion->time_s);
+  rows.q = pick(record.motion->q);
+  rows.dq = pick(record.motion->dq);
+  rows.ddq = pick(record.motion->ddq);
   rows.torque = record.torque;
   rows.residual = record.residual;
   Eigen::Index const n = record.torque.size();

@@ -22,15 +22,17 @@ std::string merged_sentence(std::vector<std::string> const& dropped) {
 // the record without the torque of given terms, which may give work away
 ProcessedRecord less_given(ProcessedRecord record, Recording const& recording, Regressor const& regressor) {
   Eigen::Index first = 0;
+  Motion motion = record.motion;
   for (std::size_t term = 0; term < regressor.terms().size(); ++term) {
     auto const width = static_cast<Eigen::Index>(regressor.terms()[term]->n_linear());
     if (regressor.terms()[term]->is_given()) {
-      Eigen::MatrixXd columns(record.motion.q.size(), width);
-      regressor.columns_of_term(record.motion, term, columns, recording.given.get());
-      record.motion.torque -= columns * record.parameters.segment(first, width);
+      Eigen::MatrixXd columns(motion.q.size(), width);
+      regressor.columns_of_term(motion, term, columns, recording.given.get());
+      motion.torque -= columns * record.parameters.segment(first, width);
     }
     first += width;
   }
+  record.motion = std::move(motion);
   return record;
 }
 

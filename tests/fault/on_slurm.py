@@ -177,6 +177,45 @@ class OnSlurm(study.FaultTest):
         print(f"real Slurm: asked after {asked:.0f} s by the limit of time, back in the queue, "
               f"{time.monotonic() - began:.0f} s, byte-identical", file=sys.stderr)
 
+    def freeze_one(self, folder, began, most_seconds):
+        while not (frozen := self.frozen(self.engines(folder)[:1])):
+            self.assertLess(time.monotonic() - began, most_seconds, self.queue())
+            time.sleep(0.01)
+        return frozen[0]
+
+    @unittest.skipUnless(KILLS >= 60, "200 tasks, minutes: scripts/test --night")
+    def test_an_array_of_200_tasks_of_which_one_is_killed_one_preempted_and_one_cancelled(self):
+        tasks, lost, most_seconds = 200, 150, 1500 * SLOWER
+        folder = self.folder(self.JOB.replace("runs = 40", f"runs = {tasks}").replace("generations = 1000",
+                                                                                     "generations = 200"))
+        odd = "Läufe 100%a it's #1"
+        os.mkdir(folder / odd)
+        job, result = f"{odd}/job %j.toml", f"{odd}/r %A.h5"
+        shutil.copy(folder / "job.toml", folder / job)
+        self.assert_ended(folder.run("run", job, "--out", "plain.h5", "--threads", "1"), 0)
+        already, began = self.restarts()[0], time.monotonic()
+        array = re.search(r"as job (\d+)", self.submit_words(folder, job, result, shards=tasks)).group(1)
+        self.slurm.said("scancel", f"{array}_{lost}")
+        os.kill(self.freeze_one(folder, began, most_seconds), signal.SIGKILL)
+        in_the_way = self.freeze_one(folder, began, most_seconds)
+        self.slurm.said("sbatch", "--partition=urgent", f"--ntasks={SHARDS}", f"--chdir={folder.path}",
+                        "--job-name=urgent", "--output=/dev/null", "--wrap=sleep 0.2")
+        while self.slurm.said("squeue", "-h", "-r", "-o", "%j %r").split("\n")[0].split()[1:] != [
+                "DependencyNeverSatisfied"]:
+            self.assertLess(time.monotonic() - began, most_seconds, self.queue())
+            time.sleep(0.5)
+        self.assertNotIn(in_the_way, self.engines(folder))
+        restarts = self.restarts()[0] - already
+        self.assertGreaterEqual(restarts, 2)
+        self.assertIn(f"not finished: shards {lost} of {tasks}", folder.run("status", result).out.replace("\n", " "))
+        self.assert_ended(folder.run("run", job, "--out", result, "--shard", f"{lost}/{tasks}"), 0)
+        self.slurm.said("scancel", "--state=PENDING", "--full")
+        self.assert_ended(folder.run("merge", job, "--out", result), 0)
+        with open(folder / result, "rb") as one, open(folder / "plain.h5", "rb") as other:
+            self.assertTrue(one.read() == other.read(), "differs from the uninterrupted one")
+        print(f"real Slurm: {tasks} tasks, 1 kill -9, 1 preempted, 1 cancelled and run by hand, {restarts} restarts, "
+              f"{time.monotonic() - began:.0f} s, byte-identical", file=sys.stderr)
+
     def test_kills_requeues_preemption_and_one_merge(self):
         folder = self.folder()
         already = self.restarts()[0]

@@ -1,6 +1,7 @@
 #include "engine/app/report/page_builder.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -29,6 +30,10 @@ int seconds_for(std::vector<std::string> const& files) {
   return page_seconds + static_cast<int>(std::min(bytes >> 20, most_seconds));  // a second for each MiB
 }
 
+// Of address space: a page of a small study takes 292 MB with numpy, matplotlib and OpenBLAS on one thread. With less
+// OpenBLAS asks again and again, and never ends
+constexpr rlim_t least_address_space = 295'000'000;
+
 Error page_problem(ExitCode code, std::string what, std::string help) {
   Problem problem;
   problem.code = code;
@@ -42,6 +47,17 @@ constexpr char const* question =
     "import importlib.util as u, sys\n"
     "names = ('h5py', 'numpy', 'matplotlib', 'jinja2')\n"
     "sys.exit(sum(1 << i for i, n in enumerate(names) if u.find_spec(n) is None))\n";
+
+void require_address_space() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= least_address_space)
+    return;
+  throw page_problem(ExitCode::internal,
+                     fmt::format("a page needs {} MB of address space, and this process may have {}",
+                                 least_address_space / 1'000'000, limit.rlim_cur / 1'000'000),
+                     "make the page where memory is not limited (ulimit -v, a batch system); the result files "
+                     "themselves are unharmed");
+}
 
 std::string find_python() {
   std::optional<int> missing;
@@ -73,14 +89,16 @@ void run_page_program(std::string const& name, std::vector<std::string> const& f
   if (!program)
     throw page_problem(ExitCode::no_input, "the page builder report/" + name + " is not installed beside this program",
                        "set TORQUESCOPE_SHARE to the folder that holds report/" + name);
+  require_address_space();
   std::string const python = find_python();
   std::vector<std::string> arguments{python, program->string(), "--out=" + page.string(), "--"};
   arguments.insert(arguments.end(), files.begin(), files.end());
   ProgramEnd const end = run_program(std::move(arguments), Voice::heard, seconds_for(files));
   if (end.used_up_its_time)
-    throw page_problem(ExitCode::internal, "the page builder used up its time and was stopped",
-                       "is memory limited (ulimit -v, a batch system)? numpy wants half a gigabyte of address space; "
-                       "the result files themselves are unharmed");
+    throw page_problem(
+        ExitCode::internal, "the page builder used up its time and was stopped",
+        "is memory limited (ulimit -v, a batch system)? numpy wants up to half a gigabyte of address space; "
+        "the result files themselves are unharmed");
   auto const status = end.status;
   if (status == static_cast<int>(ExitCode::bad_data))
     throw page_problem(ExitCode::bad_data, about + " to build a page from",

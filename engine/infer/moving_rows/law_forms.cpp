@@ -32,7 +32,7 @@ bool has_forms(Effect const& effect) {
 Eigen::MatrixXd forms_of_laws(ModelStage const& stage, JointModel const& model, ProcessedRecord const& record,
                               std::size_t without) {
   auto const& effects = stage.model().effects();
-  Eigen::MatrixXd all(record.motion.q.size(), 0);
+  Eigen::MatrixXd all(record.motion->q.size(), 0);
   for (std::size_t i = 0; i < effects.size(); ++i) {
     if (i == without || !has_forms(*effects[i].effect)) continue;
     Eigen::MatrixXd const own = forms_of(*effects[i].effect, motion_axes(model, record, stage.parameters()));

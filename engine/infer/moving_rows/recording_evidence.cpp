@@ -228,7 +228,7 @@ UnseenResidual unseen_residual(StageSetting const& setting, ModelStage const& st
       record.torque -
       record.columns * transferred(stage.model(), stage.comparison.recording.parameters.transpose()).transpose();
   if (left.rows() == 0) return {};
-  if (has_both_directions(pipeline.picked(record.motion.dq, record))) left.array() -= left.mean();
+  if (has_both_directions(pipeline.picked(record.motion->dq, record))) left.array() -= left.mean();
   weigh_elsewhere(setting, stage, recording, stage.parameters(), nullptr, 0, pipeline);
   pipeline.whiten(left, record.kept_rows);
   return {left.squaredNorm(), record.whole_torque().squaredNorm(), left.rows()};

@@ -36,6 +36,7 @@ std::optional<ModelStage> simulated_at(StageSetting const& setting, Evidence con
   // of this very model: more replicates change no level
   StageSetting draft = setting;
   draft.levels = levels_of(*first->twin);
+  first.reset();  // nobody asks it again, and of a long recording a stage is large
   auto moved = refined_draft(draft, before.reference(), effects);
   if (moved && !predicts_less(evidence, candidate, moved->model().effects().back().shape)) return moved;
   draft.twins = std::min(draft.twins, draft_twins);

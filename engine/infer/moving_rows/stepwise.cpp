@@ -68,6 +68,7 @@ class Search {
     });
     setting().loop = std::make_shared<RecordedLoop const>(first->twin->loop);
     setting().weights = first->pipeline->weights();
+    setting().motions = first->comparison.recording.motions();
     if (first->twin->colour) setting().reads_colour = true;
     SearchState state;
     state.selection.first_energy = first->energy;

@@ -11,7 +11,7 @@ namespace {
 // of the record's, those that no limited sample reaches through the filter
 std::vector<Eigen::Index> rows_beside(ProcessedRecord const& record, RecordPipeline const& pipeline,
                                       std::vector<LimitedSample> const& limited) {
-  Eigen::Index const n = record.motion.q.size();
+  Eigen::Index const n = record.motion->q.size();
   double const reach = static_cast<double>(guard_rows(pipeline)) * pipeline.rate_hz() / pipeline.kept_rate_hz();
   Eigen::VectorXd const at = pipeline.picked(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)), record);
   std::vector<Eigen::Index> rows;

@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/spline_motion.hpp"
+#include "engine/data/zero_phase.hpp"
 #include "engine/infer/pipeline/held_torque.hpp"
 #include "engine/infer/pipeline/joint_fit.hpp"
 #include "engine/infer/pipeline/reversal_mask.hpp"
@@ -59,15 +60,18 @@ RecordPipeline::RecordPipeline(JointModel model, FilterOptions const& options, d
       cutoff_hz_(parallel_cutoff_of(options)),
       filter_(options, rate_hz, n_samples, filter) {}
 
-ProcessedRecord RecordPipeline::process(Recording const& recording) const {
-  ProcessedRecord record = prepare(recording);
-  fit(record, recording.name);
+ProcessedRecord RecordPipeline::process(RecordedMotions motions, std::string const& name) const {
+  ProcessedRecord record = prepare(std::move(motions));
+  fit(record, name);
   return record;
 }
 
-RecordPipeline::SmoothPositions RecordPipeline::smoothed(Eigen::Ref<Eigen::MatrixXd const> const& positions) const {
-  SmoothPositions smooth{smooth_positions(positions, options_, rate_hz_), {}};
+RecordPipeline::SmoothPositions RecordPipeline::smoothed(Eigen::MatrixXd positions) const {
+  SmoothPositions smooth;
   if (model_.has_inertia()) smooth.drive = smooth_positions(positions, drive_options_, rate_hz_);
+  if (options_.cutoff_hz > 0.0)
+    zero_phase_in_place(butterworth_lowpass(static_cast<int>(options_.order), options_.cutoff_hz, rate_hz_), positions);
+  smooth.joint = std::move(positions);
   return smooth;
 }
 
@@ -81,7 +85,7 @@ std::optional<ProcessedRecord> RecordPipeline::process_smooth(Recording&& record
     drive = spline_motion(std::move(driving));
   }
   recording.position = positions.joint.col(column);
-  ProcessedRecord record = prepare(differentiate_smooth(std::move(recording)), std::move(drive));
+  ProcessedRecord record = prepare(RecordedMotions{differentiate_smooth(std::move(recording)), std::move(drive)});
   if (record.kept_rows.size() <= model_.size()) return std::nullopt;
   fit(record, name);
   return record;
@@ -187,27 +191,29 @@ Motion RecordPipeline::motion_of(Recording const& recording) const {
   return differentiate(recording, options_, section_);
 }
 
-ProcessedRecord RecordPipeline::prepare(Recording const& recording) const {
+ProcessedRecord RecordPipeline::prepare(Recording const& recording) const { return prepare(motions_of(recording)); }
+
+RecordedMotions RecordPipeline::motions_of(Recording const& recording) const {
   Recording driving;
   driving.rate_hz = recording.rate_hz;
   driving.time_s = recording.time_s;
   driving.position = smooth_positions(recording.position, drive_options_, rate_hz_);
   driving.torque = recording.torque;
-  return prepare(motion_of(recording), spline_motion(std::move(driving)));
+  return {motion_of(recording), spline_motion(std::move(driving))};
 }
 
-ProcessedRecord RecordPipeline::prepare(Motion&& motion, Motion&& drive) const {
-  TORQUESCOPE_EXPECT(motion.q.size() == n_samples_ && motion.torque.size() == n_samples_);
+ProcessedRecord RecordPipeline::prepare(RecordedMotions&& motions) const {
+  TORQUESCOPE_EXPECT(motions.joint->q.size() == n_samples_ && motions.joint->torque.size() == n_samples_);
   ProcessedRecord record;
-  record.motion = std::move(motion);
-  record.drive = std::move(drive);
+  record.motion = std::move(motions.joint);
+  record.drive = std::move(motions.drive);
   record.kept_rows = own_rows(record.motion);
 
   // the torque goes through the filter beside the columns: eight signals cost as much as one
   Eigen::MatrixXd signals = model_.columns(record.motion, record.drive);
   Eigen::Index const last = signals.cols();
   signals.conservativeResize(Eigen::NoChange, last + 1);
-  signals.col(last) = acting_torque(record.motion.torque);
+  signals.col(last) = acting_torque(record.motion->torque);
   signals = filtered_columns(signals, record);
   record.torque = signals.col(last);
   signals.conservativeResize(Eigen::NoChange, last);

@@ -26,8 +26,25 @@
 
 namespace torquescope {
 
+// One that several own and nobody changes: of a long recording each is as large as the file
+class SharedMotion {
+ public:
+  SharedMotion() : SharedMotion(Motion{}) {}
+  SharedMotion(Motion motion) : motion_(std::make_shared<Motion const>(std::move(motion))) {}
+  operator Motion const&() const { return *motion_; }
+  Motion const* operator->() const { return motion_.get(); }
+
+ private:
+  std::shared_ptr<Motion const> motion_;
+};
+
+// Of a recording: the same for every model under one [filter] section
+struct RecordedMotions {
+  SharedMotion joint, drive;  // ProcessedRecord::motion and ::drive
+};
+
 struct ProcessedRecord {
-  Motion motion;                        // full rate, filtered: what candidate columns are computed from
+  SharedMotion motion;                  // full rate, filtered: what candidate columns are computed from
   std::vector<Eigen::Index> kept_rows;  // of the rows below: index among the pipeline's kept samples
   Eigen::MatrixXd columns;              // of the model
   Eigen::VectorXd torque;
@@ -38,9 +55,11 @@ struct ProcessedRecord {
   Eigen::VectorXd plain_torque{};
   // of the gear load that the recording's torque is without; empty: none
   Eigen::VectorXd beside{};
-  Motion drive{};  // the same with a wider band, for parts that have an inertia; empty in a twin whose model has none
+  // the same with a wider band, for parts that have an inertia; empty in a twin whose model has none
+  SharedMotion drive{};
   std::string held{};  // "inertia" or "dry friction" where its fit is at a bound (joint_fit.hpp)
 
+  RecordedMotions motions() const { return {motion, drive}; }
   double energy() const { return residual.squaredNorm(); }
   bool is_whitened() const { return plain_torque.size() > 0; }
   // what errors are relative to
@@ -106,12 +125,15 @@ class RecordPipeline {
   // by the shares of rows near reversals alone
   void take_shares(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
 
-  ProcessedRecord process(Recording const& recording) const;
+  ProcessedRecord process(Recording const& recording) const { return process(motions_of(recording), recording.name); }
+  // of motions that motions_of() returned, by any pipeline with the same filter and rate
+  ProcessedRecord process(RecordedMotions motions, std::string const& name) const;
+  RecordedMotions motions_of(Recording const& recording) const;
   // positions of many recordings, one per column, which share the filter's work; drive: none where the model needs none
   struct SmoothPositions {
     Eigen::MatrixXd joint, drive;
   };
-  SmoothPositions smoothed(Eigen::Ref<Eigen::MatrixXd const> const& positions) const;
+  SmoothPositions smoothed(Eigen::MatrixXd positions) const;
   // differentiated, as process() does
   Motion motion_of(Recording const& recording) const;
   // of a recording whose position is to be that column; nothing where it moves on fewer rows than there are parameters
@@ -136,7 +158,7 @@ class RecordPipeline {
  private:
   std::vector<Eigen::Index> present_columns(Eigen::MatrixXd const& columns) const;
   bool is_repeated(Eigen::MatrixXd const& columns, Eigen::Index column) const;
-  ProcessedRecord prepare(Motion&& motion, Motion&& drive) const;
+  ProcessedRecord prepare(RecordedMotions&& motions) const;
   void fit(ProcessedRecord& record, std::string const& name) const;  // whitens first
 
   JointModel model_;

@@ -174,13 +174,14 @@ TwinLevels levels_of(BaselineTwin const& made) {
 
 NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
                            TwinOptions const& options, TwinWorkers const& workers) {
-  return friction_wander(pipeline.process(recording), made.twin, pipeline, options.wander, wander_set(options),
-                         options.twins, workers);
+  return friction_wander(pipeline.process(made.record.motions(), recording.name), made.twin, pipeline, options.wander,
+                         wander_set(options), options.twins, workers);
 }
 
 BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const& pipeline, FilterOptions const& filter,
                                 TwinOptions const& options, TwinWorkers const& workers) {
-  ProcessedRecord record = pipeline.process(recording);
+  ProcessedRecord record =
+      pipeline.process(options.motions ? *options.motions : pipeline.motions_of(recording), recording.name);
   TrackedJoint const joint = fitted_joint(pipeline.model(), without_negatives(record.parameters, pipeline.model()));
   InLoop const in_loop = in_loop_of(recording, record, pipeline);
   bool const decides = options.loop == nullptr;

@@ -43,6 +43,7 @@ struct TwinOptions {
   bool reads_colour = false;                   // of the torque noise, from what the model leaves, whatever the law says
   bool draws_sticking = false;                 // every replicate its own law of it (sticking_range.hpp)
   std::optional<TwinLevels> levels{};          // known: only the parameters are corrected; none: measure
+  std::optional<RecordedMotions> motions{};    // of the recording, where somebody has them
 };
 
 struct BaselineTwin {

@@ -43,9 +43,9 @@ FrictionWander::FrictionWander(ProcessedRecord const& recording, RecordPipeline 
   blocks_ = blocks;
   duration_s_ = duration_s;
   Motion kept;
-  kept.q = pipeline.picked(recording.motion.q);
-  kept.dq = pipeline.picked(recording.motion.dq);
-  kept.ddq = pipeline.picked(recording.motion.ddq);
+  kept.q = pipeline.picked(recording.motion->q);
+  kept.dq = pipeline.picked(recording.motion->dq);
+  kept.ddq = pipeline.picked(recording.motion->ddq);
   friction_ = kept.dq.unaryExpr([&](double v) { return v > 0.0 ? joint.coulomb_forward : joint.coulomb_backward; });
   smooth_ = smooth_functions(kept, friction_, reading);
 }

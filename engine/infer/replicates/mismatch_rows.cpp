@@ -43,14 +43,15 @@ MismatchRows in_torque_itself(MismatchRows rows) {
   return rows;
 }
 
-TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
-                                  TwinAddress const& address, std::size_t twins, TwinWorkers const& workers) {
+TwinComparison compare_with_twins(RecordedMotions const& recording, std::string const& name, CleanTwin const& twin,
+                                  RecordPipeline& pipeline, TwinAddress const& address, std::size_t twins,
+                                  TwinWorkers const& workers) {
   TwinComparison result;
-  auto const alone = without_noise(twin, address, pipeline.rate_hz());
+  auto alone = without_noise(twin, address, pipeline.rate_hz());
   result.ran_away = !alone;
   if (result.ran_away) return result;
   // candidates are driven by it, whatever the model is: processed by itself, with its drive
-  result.common = pipeline.process(*alone);
+  result.common = pipeline.process(*std::exchange(alone, std::nullopt));
 
   // pilots: rows at which a twin may turn are not safe in any
   std::size_t const n_pilots = std::min<std::size_t>(twins, twin_lanes);
@@ -61,14 +62,14 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
     auto const& record = visited.record;
     pilots[visited.index] = {{}, record.kept_rows, record.columns_themselves(), record.torque_itself(), {}, {}};
   });
-  result.recording = pipeline.process(recording);
+  result.recording = pipeline.process(recording, name);
   std::vector<Eigen::Index> safe = common(result.recording.kept_rows, result.common.kept_rows);
   for (std::size_t i = 0; i < n_pilots; ++i)
     if (ran_away[i] == 0) safe = common(safe, pilots[i].kept_rows);
-  check_rows(safe, pipeline, recording.name);
+  check_rows(safe, pipeline, name);
   pipeline.restrict_to(safe);
 
-  result.recording = pipeline.restricted(std::move(result.recording), safe, recording.name);
+  result.recording = pipeline.restricted(std::move(result.recording), safe, name);
   result.common = pipeline.restricted(std::move(result.common), safe, twins_name);
   auto& rows = result.rows;
   rows.rate_hz = pipeline.kept_rate_hz();

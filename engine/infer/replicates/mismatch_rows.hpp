@@ -12,6 +12,7 @@
 // Threads        plain record
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "engine/infer/pipeline/motion_axes.hpp"
@@ -51,7 +52,12 @@ struct TwinComparison {
 // pipeline: its rows become the common ones.  twins >= 8
 // Errors     as the pipeline; Error 65 when fewer than 100 rows, or 10 per parameter, are left
 // Threads    spreads twins over the threads and processes of `workers`; same bits for any number
-TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
-                                  TwinAddress const& address, std::size_t twins, TwinWorkers const& workers);
+TwinComparison compare_with_twins(RecordedMotions const& recording, std::string const& name, CleanTwin const& twin,
+                                  RecordPipeline& pipeline, TwinAddress const& address, std::size_t twins,
+                                  TwinWorkers const& workers);
+inline TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
+                                         TwinAddress const& address, std::size_t twins, TwinWorkers const& workers) {
+  return compare_with_twins(pipeline.motions_of(recording), recording.name, twin, pipeline, address, twins, workers);
+}
 
 }  // namespace torquescope

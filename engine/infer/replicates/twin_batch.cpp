@@ -83,9 +83,9 @@ void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAd
   for (std::size_t first = first_group; first < groups; first += wave) {
     // as many groups as there are threads, then all their twins: the pipeline is the longer part and spreads evenly
     std::size_t const now = std::min(wave, groups - first);
+    std::fill(smooth.begin(), smooth.end(), RecordPipeline::SmoothPositions{});
     parallel_for(now, threads, [&](std::size_t i, int) {
       twin.simulate(address, static_cast<std::uint32_t>(first + i), simulated[i]);
-      smooth[i] = {};
       smooth[i] = pipeline.smoothed(taken_in_columns(simulated[i].position));
     });
     std::size_t const twins = std::min(range.to - first * twin_lanes, now * twin_lanes);

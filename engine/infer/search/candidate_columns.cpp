@@ -93,7 +93,7 @@ Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect, std::ve
   auto const filtered = [&](Eigen::MatrixXd const& signals) {
     return scan ? scan->filtered_columns(signals, record_->kept_rows) : pipeline_->filtered_columns(signals, *record_);
   };
-  Eigen::Index const n = scan ? scan->samples() : record_->motion.q.size();
+  Eigen::Index const n = scan ? scan->samples() : record_->motion->q.size();
   Eigen::Index const columns_at_once = std::max(enough_columns, most_numbers / n);
   Eigen::Index const at_once = std::max<Eigen::Index>(1, columns_at_once / linear);
   EffectInput const input = scan ? scan->input() : input_of(effect);
@@ -128,7 +128,7 @@ Eigen::MatrixXd CandidateColumns::plain_columns(Effect const& effect, std::span<
 }
 
 Eigen::MatrixXd CandidateColumns::signals(Effect const& effect, std::span<double const> shape) const {
-  Eigen::MatrixXd all(record_->motion.q.size(), static_cast<Eigen::Index>(effect.n_linear()));
+  Eigen::MatrixXd all(record_->motion->q.size(), static_cast<Eigen::Index>(effect.n_linear()));
   effect.columns(input_of(effect), shape, all);
   return all;
 }

@@ -82,6 +82,7 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   auto const make_twin = [&] { return twin_of_free_or_bounded_fit(setting, *pipeline, options); };
   if (setting.weights) pipeline->weigh_with(setting.weights);
   options.levels = setting.levels;
+  options.motions = setting.motions ? setting.motions : pipeline->motions_of(setting.recording);
   BaselineTwin made = [&] {
     try {
       return make_twin();
@@ -105,8 +106,8 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   }
   ablate_twin(made, *pipeline, setting.ablation);
   TwinAddress const null_set{setting.seed, options.recording, first_free_twin_set};
-  TwinComparison comparison =
-      compare_with_twins(setting.recording, made.twin, *pipeline, null_set, setting.twins, setting.workers());
+  TwinComparison comparison = compare_with_twins(made.record.motions(), setting.recording.name, made.twin, *pipeline,
+                                                 null_set, setting.twins, setting.workers());
   if (!comparison.ran_away) replace_null(comparison, setting.ablation.null, setting.seed, setting.threads);
   ModelStage stage{std::move(pipeline), std::move(made), std::move(comparison), {}};
   if (!stage.comparison.ran_away) stage.energy = mismatch_energy(stage.comparison.rows);

@@ -39,8 +39,9 @@ struct StageSetting {
   ReversalRows reversals = ReversalRows::mask;
   double least_inertia_share = 0.0;                // of the model without effects (joint_fit.hpp); 0: as a rule
   std::shared_ptr<TrainedMotion const> trained{};  // rows of other recordings outside of it are left out; none: no row
-  bool inertia_by_turns = false;     // a held inertia is one that a loop leads round the turns (joint_fit.hpp)
-  TwinExchange* exchange = nullptr;  // processes that share the replicates; none by default
+  bool inertia_by_turns = false;             // a held inertia is one that a loop leads round the turns (joint_fit.hpp)
+  std::optional<RecordedMotions> motions{};  // of the recording, as the first stage made them; none: make them
+  TwinExchange* exchange = nullptr;          // processes that share the replicates; none by default
 
   TwinWorkers workers() const { return {threads, exchange}; }
 };

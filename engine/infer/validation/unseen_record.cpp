@@ -161,7 +161,7 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   }
   Eigen::VectorXd const left_with = left_after;
   double offset_before = 0.0, offset_after = 0.0;
-  Eigen::VectorXd const velocity = plain.picked(before.motion.dq, before);
+  Eigen::VectorXd const velocity = plain.picked(before.motion->dq, before);
   if (augmented.model().effects().empty()) {
     left_after = left_before;  // one model: nothing to compare, nothing to refit
   } else if (double const offset = head_offset(left_after, velocity); offset != 0.0) {
@@ -205,11 +205,11 @@ TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipel
   TorqueTrace trace;
   trace.recording = recording.name;
   trace.rate_hz = pipeline.kept_rate_hz();
-  trace.time_s = pipeline.picked(before.motion.time_s);
-  trace.torque = pipeline.filtered(acting_torque(before.motion.torque));
+  trace.time_s = pipeline.picked(before.motion->time_s);
+  trace.torque = pipeline.filtered(acting_torque(before.motion->torque));
   if (recording.gear_load.size() > 0) trace.torque += pipeline.filtered(recording.gear_load);
-  trace.velocity = pipeline.picked(before.motion.dq);
-  trace.position = pipeline.picked(before.motion.q);
+  trace.velocity = pipeline.picked(before.motion->dq);
+  trace.position = pipeline.picked(before.motion->q);
   trace.before = trace.after = Eigen::VectorXd::Constant(trace.time_s.size(), unknown);
   for (std::size_t i = 0; i < before.kept_rows.size(); ++i) {
     trace.before[before.kept_rows[i]] = residual_before[static_cast<Eigen::Index>(i)];

@@ -4,6 +4,7 @@
 
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "engine/base/contract.hpp"
 
@@ -28,6 +29,13 @@ TEST(Failure, OfTheUserKeepsItsCodeAndWords) {
   bad.what = "time runs backwards";
   EXPECT_EQ(problem_of(Error(bad)).code, ExitCode::bad_data);
   EXPECT_EQ(problem_of(Error(bad)).what, "time runs backwards");
+}
+
+TEST(Failure, OfAThreadThatDoesNotStartIsLackOfMemory) {
+  std::system_error const limit(std::make_error_code(std::errc::resource_unavailable_try_again));
+  EXPECT_EQ(problem_of(limit).what, problem_of(std::bad_alloc()).what);
+  std::system_error const other(std::make_error_code(std::errc::no_such_device));
+  EXPECT_NE(problem_of(other).what, problem_of(limit).what);
 }
 
 TEST(Failure, OfAnyOtherKindIsOurs) {

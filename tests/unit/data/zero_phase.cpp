@@ -166,6 +166,9 @@ TEST(ZeroPhaseColumns, HaveTheBitsOfOneAtATime) {
       Eigen::MatrixXd const together = zero_phase_columns(sections, signals);
       ASSERT_EQ(together.rows(), signals.rows());
       ASSERT_EQ(together.cols(), width);
+      Eigen::MatrixXd in_place = signals;
+      zero_phase_in_place(sections, in_place);
+      EXPECT_TRUE(has_same_bits(in_place.reshaped(), together.reshaped())) << order << " " << width;
       for (Eigen::Index k = 0; k < width; ++k)
         EXPECT_TRUE(has_same_bits(together.col(k), zero_phase(sections, signals.col(k))))
             << order << " " << width << " " << k;

@@ -76,7 +76,7 @@ TEST_F(ColumnExportTest, TheEffectThatIsThereExplainsMostAndNoLessThanAtItsTrueS
   // speed and exponent can stand in for each other: what a search promises is the gain, not the shape
   RecordPipeline const pipeline(clean_regressor(), filter, train.rate_hz, train.position.size());
   ProcessedRecord const record = pipeline.process(train);
-  Eigen::VectorXd const& dq = record.motion.dq;
+  Eigen::VectorXd const& dq = record.motion->dq;
   Eigen::VectorXd const law = dq.array().sign() * (-(dq.array().abs() / 0.1)).exp();
   EXPECT_GE(best->gain, explained(pipeline.filtered(law, record), record.columns, record.torque));
 }

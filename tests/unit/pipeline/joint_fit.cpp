@@ -49,7 +49,7 @@ TEST(JointFit, OfASoundJointIsLeastSquares) {
 
 TEST(JointFit, HoldsAnInertiaThatAMissingWeightTookAway) {
   Rows rows({"inertia", "viscous", "coulomb", "offset"});
-  Eigen::VectorXd const weight = 5.0 * rows.record.motion.q.array().sin();
+  Eigen::VectorXd const weight = 5.0 * rows.record.motion->q.array().sin();
   Eigen::Vector4d const truth(0.05, 0.8, 1.1, 0.0);
   rows.fit(rows.record.columns * truth + weight);
   EXPECT_EQ(rows.record.held, "inertia");
@@ -66,11 +66,13 @@ TEST(JointFit, HoldsNoInertiaThatNoLoopLeadsRoundTheTurns) {
   rows.record.columns.col(0) *= slow;
   Eigen::VectorXd const torque =
       rows.record.columns * Eigen::Vector3d(-0.5, 1.1, 0.0) - 3.0 * rows.record.columns.col(0);
-  rows.record.motion.torque = torque;
+  Motion motion = rows.record.motion;
+  motion.torque = torque;
+  rows.record.motion = std::move(motion);
   rows.fit(torque, {.by_turns = true});
   ASSERT_EQ(rows.record.held, "inertia");
   EXPECT_GT(rows.record.parameters[0], 0.0);
-  double const asked_for = rows.record.parameters[0] * rows.record.motion.ddq.cwiseAbs().maxCoeff();
+  double const asked_for = rows.record.parameters[0] * rows.record.motion->ddq.cwiseAbs().maxCoeff();
   EXPECT_LE(asked_for, 0.5 * torque.cwiseAbs().maxCoeff() * (1.0 + 1e-9));
 }
 

@@ -95,8 +95,8 @@ TEST_F(FrictionWanders, NotWhenItDriftsOnNorWithTheMotion) {
   FrictionWander const statistic(made.record, pipeline, made.twin.joint(), WanderReading::beside_motion);
   ASSERT_TRUE(statistic.is_measurable());
   ProcessedRecord drifting = made.record, slow = made.record, jumping = made.record;
-  Eigen::VectorXd const time = pipeline.picked(drifting.motion.time_s, drifting);
-  Eigen::VectorXd const dq = pipeline.picked(drifting.motion.dq, drifting);
+  Eigen::VectorXd const time = pipeline.picked(drifting.motion->time_s, drifting);
+  Eigen::VectorXd const dq = pipeline.picked(drifting.motion->dq, drifting);
   for (Eigen::Index k = 0; k < time.size(); ++k) {
     double const friction = dq[k] > 0.0 ? coulomb : -coulomb;
     drifting.residual[k] += friction * 0.2 * time[k] / duration_s;                   // a fifth more at the end
@@ -119,8 +119,8 @@ TEST_F(FrictionWanders, NotAsAParabolaInAnyUnit) {
       joint.coulomb_backward *= unit;
       FrictionWander const statistic(made.record, pipeline, joint, reading);
       ProcessedRecord curved = made.record;
-      Eigen::VectorXd const time = pipeline.picked(curved.motion.time_s, curved);
-      Eigen::VectorXd const dq = pipeline.picked(curved.motion.dq, curved);
+      Eigen::VectorXd const time = pipeline.picked(curved.motion->time_s, curved);
+      Eigen::VectorXd const dq = pipeline.picked(curved.motion->dq, curved);
       for (Eigen::Index k = 0; k < time.size(); ++k) {
         double const friction = dq[k] > 0.0 ? joint.coulomb_forward : joint.coulomb_backward;
         curved.residual[k] = friction * (1.0 + 0.4 * std::pow(time[k] / duration_s, 2));
@@ -156,7 +156,7 @@ TEST_F(FrictionWanders, AndIsSeenWhereItIsThreeTimesWhatIsPlausible) {
 TEST_F(FrictionWanders, NotSoMuchThatADriftIsHidden) {
   // three tenths more friction at the end, in the torque channel: the loop has nothing to answer
   Recording recording = steady;
-  auto const& dq = made.record.motion.dq;
+  auto const& dq = made.record.motion->dq;
   for (Eigen::Index k = 0; k < recording.torque.size(); ++k)
     recording.torque[k] += coulomb * std::tanh(dq[k] / 0.01) * 0.3 * recording.time_s[k] / duration_s;
   // beside friction that wanders a drift holds little weighed energy: the least p of few twins would not open the gate

@@ -54,14 +54,24 @@ struct Found {
   TwinComparison comparison;
 };
 
+// with others: also of motions that somebody made before, as the stages of a search have them
 Found found_by(TwinWorkers const& workers) {
   auto const recording = recorded(simulate_joint(clean_joint().plan, 12));
   auto pipeline = clean_pipeline(recording);
   constexpr std::size_t twins = 2 * twin_lanes;
-  auto made = make_baseline_twin(recording, pipeline, clean_filter(), {1e-4, twins, 1, 0}, workers);
+  TwinOptions options{1e-4, twins, 1, 0};
+  if (workers.exchange != nullptr) options.motions = pipeline.motions_of(recording);
+  auto made = make_baseline_twin(recording, pipeline, clean_filter(), options, workers);
   auto whitening = twin_whitening(made.twin, pipeline, {1, 0, 5}, twins, workers);
   pipeline.weigh_with(std::make_shared<NoiseWeights const>(whitening));
-  auto comparison = compare_with_twins(recording, made.twin, pipeline, {1, 0, 6}, twins + 3, workers);
+  TwinAddress const address{1, 0, 6};
+  auto comparison =
+      workers.exchange == nullptr
+          ? compare_with_twins(recording, made.twin, pipeline, address, twins + 3, workers)
+          : compare_with_twins(made.record.motions(), recording.name, made.twin, pipeline, address, twins + 3, workers);
+  if (options.motions) {
+    EXPECT_EQ(&comparison.recording.motion->q, &options.motions->joint->q);
+  }
   return {std::move(made), std::move(whitening), std::move(comparison)};
 }
 
@@ -70,6 +80,7 @@ void expect_same(Found const& one, Found const& other) {
   EXPECT_EQ(one.baseline.baseline.std, other.baseline.baseline.std);
   EXPECT_EQ(one.baseline.disturbance.z, other.baseline.disturbance.z);
   EXPECT_EQ(one.baseline.friction_wander.std, other.baseline.friction_wander.std);
+  EXPECT_EQ(one.comparison.rows.residual, other.comparison.rows.residual);
   EXPECT_EQ(one.comparison.rows.twins, other.comparison.rows.twins);
   EXPECT_EQ(one.comparison.rows.plain_twins, other.comparison.rows.plain_twins);
   EXPECT_EQ(one.comparison.rows.kept_rows, other.comparison.rows.kept_rows);
