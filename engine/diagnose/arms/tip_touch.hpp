@@ -2,7 +2,7 @@
 // The short time in which something pushes the last link of an arm: a wrench there explains what all joints lack then,
 // and at no other time one explains nearly as much.
 //
-// Equation   r_j(t) = (J(q)' w)_j / noise_j; r: what a fit to all other rows leaves, w: one wrench along the base's axes
+// Equation   r_j(t) = (J(q)' w)_j / noise_j; r: what the fit of other rows leaves, w: one wrench along the base's axes
 // Statistic  energy that w explains, in windows from 0.2 to 2 s; all others of the recording are the null distribution
 // Not told   what shows at one joint alone, at an end of the recording, or more than once
 // Positions  of all joints, from the rows of the fit and the others: instants without one are not looked at
