@@ -68,6 +68,7 @@ enum class FindingKind {
   standstill,         // size: the whole range of the motion, SI
   stretch_left_out,   // size: s, by the job or by missing values
   reader_remark,      // detail: what the reader of the file did
+  arm_touched,        // size: s from which on; detail: until when, who feels it; line_to_write: leaves it out
 };
 
 // what was done about it

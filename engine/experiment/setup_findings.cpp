@@ -7,6 +7,7 @@
 #include "engine/data/arm_recording.hpp"
 #include "engine/diagnose/arms/link_change.hpp"
 #include "engine/diagnose/arms/setup_search.hpp"
+#include "engine/diagnose/arms/tip_touch.hpp"
 #include "engine/experiment/arm_wrench.hpp"
 
 namespace torquescope {
@@ -156,6 +157,41 @@ std::optional<Finding> late_torques(Experiment::Parts const& parts, RecordingOpt
   return finding;
 }
 
+// no row of any joint stands for this time
+void leave_out(RecordedArm& recording, double from_s, double until_s) {
+  for (Recording& joint : recording.joints) {
+    Stretch const where{from_s - joint.time_s[0], until_s - joint.time_s[0]};
+    joint.left_out.push_back(where);
+    joint.left_out_because.push_back({where, LeftOutReason::asked_for, {}, false});
+  }
+}
+
+// A moment in which something pushes the last link. A diagnosis leaves it out
+std::optional<Finding> touched_tip(Experiment::Parts& parts, SetupUse use) {
+  auto const& rows = parts.train.regression;
+  bool const can_tell = parts.health.identifiable && rows.arm && rows.arm->gain_column.empty();
+  if (!can_tell) return {};
+  auto const touch = find_tip_touch(rows, parts.train.other_rows, parts.arm->model.chain());
+  if (!touch) return {};
+  Finding finding = finding_of(parts, FindingKind::arm_touched);
+  if (touch->file < parts.train.recordings.size()) finding.recording = parts.train.recordings[touch->file].name;
+  auto const names = parts.arm->model.joint_names();
+  std::vector<std::string> who;
+  for (std::size_t const j : touch->joints) who.push_back(joint_title(j, names));
+  finding.size = touch->from_s;
+  finding.detail =
+      fmt::format("to {:.1f} s something pushes the last link{}: {} feel it together", touch->until_s,
+                  touch->force ? fmt::format(" with {:.2g} N", *touch->force) : std::string(), fmt::join(who, ", "));
+  constexpr double beside_s = 0.2;  // what the filter smears
+  double const from_s = std::max(touch->from_s - beside_s, 0.0), until_s = touch->until_s + beside_s;
+  finding.line_to_write = fmt::format("leave_out = [[{:.4g}, {:.4g}]]", from_s, until_s);
+  if (use == SetupUse::diagnosis && touch->file < parts.arm->train.size()) {
+    leave_out(parts.arm->train[touch->file], from_s, until_s);
+    finding.repair = Repair::left_out;
+  }
+  return finding;
+}
+
 // A file whose own masses leave less than this of every joint's torque is the file of this arm: it tells more than a
 // guess of masses could, which is off by a third
 bool file_explains(SetupStep const& step) {
@@ -210,7 +246,7 @@ std::string setup_lines(ArmSetup const& setup, SerialChain const& chain, Recordi
   return fmt::format("{}", fmt::join(lines, "   "));
 }
 
-std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOptions const& options, SetupUse use) {
+std::vector<Finding> setup_findings(Experiment::Parts& parts, RecordingOptions const& options, SetupUse use) {
   std::vector<Finding> findings;
   auto const& arm = *parts.arm;
   constexpr Index fewest = 200;
@@ -225,6 +261,8 @@ std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOpt
   if (found.steps.empty()) {
     if (auto late = late_torques(parts, options, use))
       findings.push_back(std::move(*late));
+    else if (auto touched = touched_tip(parts, use))
+      findings.push_back(std::move(*touched));
     else
       add_link_change(parts, findings);
     return findings;

@@ -42,7 +42,7 @@ def draw(rng, folder):
         if "lines" not in check.document:
             return f"{how}: {check.text[-300:]}"
         said = [line["text"] for line in check.document["lines"]
-                if line["topic"] in ("arm_setup", "beyond_limits") or line["level"] == "fault"]
+                if line["topic"] in ("arm_setup", "arm_touched", "beyond_limits") or line["level"] == "fault"]
         return f"{how}, {len(case.joints)} joints: {said}" if said else None
 
     return judge

@@ -93,6 +93,8 @@ std::string code_of(FindingKind kind) {
       return "arm_setup";
     case arm_changes_at:
       return "arm_changes_at";
+    case arm_touched:
+      return "arm_touched";
     case beyond_limits:
       return "beyond_limits";
     case standstill:

@@ -189,6 +189,8 @@ std::string what(Finding const& f) {
     case arm_changes_at:
       return fmt::format("the torque changes at {:.3g} s as with another load ({}): split the recording there", f.size,
                          f.detail);
+    case arm_touched:
+      return fmt::format("from {:.3g} s {}", f.size, f.detail);
     case beyond_limits:
       return fmt::format("{:.3g} % of the samples are beyond {}", 100.0 * f.size, f.detail);
     case standstill:
@@ -272,6 +274,7 @@ std::string cure_of(Finding const& f) {
       return fmt::format("position_per_unit = {:.10g}", f.size * f.written);
     case arm_setup:
     case arm_changes_at:
+    case arm_touched:
       return f.line_to_write;
     case beyond_limits:
       return "check the unit and the zero of the column, and the limits of the robot file";

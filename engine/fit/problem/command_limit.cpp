@@ -178,6 +178,8 @@ Index count_beyond(VectorXd const& torque, Kinks const& found) {
 
 bool is_limit(TorqueBesideMotion const& beside, Scan const& scan, Kinks const& found, VectorXd const& torque) {
   VectorXd const& left = beside.left();
+  // a drive pushes either way: one that never does would hold the joint at its stop
+  if (found.upper <= 0.0 || found.lower >= 0.0) return false;
   if (static_cast<double>(count_beyond(torque, found)) > most_beyond * static_cast<double>(torque.size())) return false;
   double const all = left.squaredNorm(), after = std::max(all - found.energy, 0.0);
   if (!(std::sqrt(all) >= error_falls * std::sqrt(after))) return false;

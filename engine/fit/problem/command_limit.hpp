@@ -4,8 +4,8 @@
 // Equation   column = torque of the motion + a max(column - L, 0) + b min(column + M, 0); a = b = 1 of such a command,
 //            both columns filtered like the torque; L and M by a scan of the levels, one side or both
 // Told       the error falls by a third and beyond chance (of the scan), a and b are one, the motion leaves a tenth of
-//            what is asked beyond the limit, and kinks at other levels beside these explain next to nothing: an effect
-//            that bends with the torque is no limit
+//            what is asked beyond the limit, the drive gives torque of both signs, and kinks at other levels beside
+//            these explain next to nothing more: an effect that bends with the torque is no limit
 // Units      N m or N
 // Threads    pure function
 
