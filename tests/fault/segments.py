@@ -340,12 +340,12 @@ class Segments(study.FaultTest):
     def test_a_generation_that_takes_long_is_not_waited_for(self):
         folder = self.folder(
             study.JOB.replace("population = 14", "population = 100000")
-            .replace("duration_s = 15", "duration_s = 1000")
+            .replace("duration_s = 15", "duration_s = 4000")
             .replace("validate = true", "validate = false")
         )
         process = folder.start("run", "job.toml", "--out", "r.h5", "--threads", "1")
         self.read_until(process, b"stage=de")
-        time.sleep(0.2)  # into the first generation, which takes two seconds and more
+        time.sleep(1.0)  # into the first generation, which takes ten seconds and more
         process.terminate()
         ended = study.Ended(process, time.monotonic())
         self.assert_ended(ended, 75)
