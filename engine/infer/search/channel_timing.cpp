@@ -20,16 +20,22 @@ CandidateColumns columns_of(ModelStage const& stage) {
   return {*stage.pipeline, stage.comparison, stage.reference(), stage.parameters()};
 }
 
-// of the recording as it came: by what was named first, or by what would have been if it explained more of it
+// Of the recording as it came: by what was named first, or by what would have been if it explained more of it. Of that
+// recording alone, as a delay's is: what a scan gains counts others, too
 double first_gain(Selection const& selection) {
   double most = 0.0;
   for (std::size_t i = 0; i < selection.first_scan.size(); ++i) {
     EffectScan const& one = selection.first_scan[i];
-    if (!selection.accepted.empty() && one.effect == selection.accepted.front().effect) return one.gain;
-    if (one.is_testable && selection.first_q[i] <= certain_q) most = std::max(most, one.gain);
+    if (!one.is_testable) continue;
+    if (!selection.accepted.empty() && one.effect == selection.accepted.front().effect)
+      return selection.first_cv_gain[i];
+    if (selection.first_q[i] <= certain_q) most = std::max(most, selection.first_cv_gain[i]);
   }
   return most;
 }
+
+// what an effect explained of the recording alone when it was accepted, in the unit of that step
+double own_gain(AcceptedEffect const& one) { return one.gain > 0.0 ? one.scan.gain * one.cv_gain / one.gain : 0.0; }
 
 }  // namespace
 
@@ -55,7 +61,7 @@ std::optional<double> delay_within_a_sample(Selection const& selection, bool is_
   }
   // asked before the physics that was named beside others
   for (auto const& one : selection.accepted)
-    if (one.instead && one.instead->z >= clear_z && one.instead->gain >= nearly_as_good * one.scan.gain &&
+    if (one.instead && one.instead->z >= clear_z && one.instead->gain >= nearly_as_good * own_gain(one) &&
         is_timing(*one.instead, already_s, rate_hz))
       return one.instead->late_s;
   ModelStage const& plain = *selection.baseline;
