@@ -83,8 +83,9 @@ def said_of(train, other, **job):
 
 class LoggedJoints(unittest.TestCase):
     def test_a_pump_that_runs_in_both_recordings_is_named(self):
+        laws = '["torque_ripple", "transmission_error", "cogging", "periodic_disturbance"]'
         said = said_of(recording(1, 24, pump=0.7, phase=0.3), recording(2, 16, pump=0.7, phase=2.1), cutoff=40,
-                       parallel=20, effects='["torque_ripple", "transmission_error", "cogging", "periodic_disturbance"]')
+                       parallel=20, effects=laws)
         joint = said["joints"][0]
         self.assertEqual([effect["name"] for effect in joint["effects"]], ["periodic_disturbance"], said["reason"])
         frequency = next(one for one in joint["effects"][0]["parameters"] if one["name"] == "disturbance_frequency")
