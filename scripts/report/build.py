@@ -3,21 +3,7 @@
 
 import sys
 
-
-def main(arguments):
-    """As the page's own; 70 where memory does not suffice, which only an import may say in its own words."""
-    try:
-        from torquescope.page.build import main as build
-
-        return build(arguments)
-    except MemoryError:
-        pass
-    except ImportError as error:
-        if not any(words in str(error) for words in ("allocate memory", "failed to map segment")):
-            raise
-    print("error: there is not enough memory for the page", file=sys.stderr)
-    return 70
-
+from page_command import end_as
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(end_as("build"))

@@ -5,7 +5,7 @@
 //            that is not adequate; such a model must explain more of the mismatch than it leaves
 // Shorter    where the part without the last step stands too, that step must lower the error clearly once more, unless
 //            its law belongs to a clock
-// Bound      laws that all belong to an instant or a clock predict nothing elsewhere: their error falls where they act,
+// Bound      laws that all belong to an instant or a clock predict little elsewhere: their error falls where they act,
 //            that of unseen recordings does not rise clearly, and the model is adequate with them
 // None       where no part does: the whole search, whose names are withdrawn
 // Threads    as held_out_errors
