@@ -20,7 +20,6 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr Index fewest_windows = 20;  // fewer are no distribution
-constexpr double margin_s = 0.3;      // what the filters smear
 
 // rows of one recording by instant; 0 where a joint has none
 struct TouchRows {
@@ -34,9 +33,9 @@ struct TouchRows {
 
 // Friction that the model lacks looks like a touch where two joints are slow, or carry much, together: what any law of
 // low speeds or of the load explains of each joint's residual is taken away
-VectorXd beside_slow_friction(RegressionData const& rows, VectorXd left, VectorXd const& weights) {
-  constexpr double slow[] = {0.01, 0.03, 0.1, 0.3};  // of the greatest speed
-  auto const laws = static_cast<Index>(std::size(slow));
+VectorXd beside_slow_friction(RegressionData const& rows, VectorXd left, VectorXd const& weights,
+                              TipTouchNumbers const& numbers) {
+  auto const laws = std::ssize(numbers.slow);
   for (std::size_t joint = 0; joint < rows.arm->joints(); ++joint) {
     std::vector<Index> own;
     double greatest = 0.0;
@@ -50,7 +49,8 @@ VectorXd beside_slow_friction(RegressionData const& rows, VectorXd left, VectorX
     MatrixXd columns(speed.size(), laws + 1);
     columns.col(laws) = (rows.tau(own) - residual).array().abs() * speed.array().sign();
     for (Index k = 0; k < laws; ++k)
-      columns.col(k) = speed.array().sign() * (-speed.array().abs() / (slow[k] * greatest)).exp();
+      columns.col(k) =
+          speed.array().sign() * (-speed.array().abs() / (numbers.slow[static_cast<std::size_t>(k)] * greatest)).exp();
     MatrixXd const weighted = weight.asDiagonal() * columns;
     VectorXd const sizes =
         solve_semidefinite(MatrixXd(weighted.transpose() * columns), VectorXd(weighted.transpose() * residual));
@@ -60,8 +60,8 @@ VectorXd beside_slow_friction(RegressionData const& rows, VectorXd left, VectorX
 }
 
 // what a fit to the rows of weight 1 leaves of all
-VectorXd left_of_fit(RegressionData const& rows, VectorXd const& weights) {
-  return beside_slow_friction(rows, rows.tau - rows.phi * solve_weighted(rows, weights), weights);
+VectorXd left_of_fit(RegressionData const& rows, VectorXd const& weights, TipTouchNumbers const& numbers) {
+  return beside_slow_friction(rows, rows.tau - rows.phi * solve_weighted(rows, weights), weights, numbers);
 }
 
 double median_of(std::vector<double> values) {
@@ -183,9 +183,8 @@ struct Window {
 };
 
 std::vector<Index> lengths_of(TouchRows const& rows, TipTouchNumbers const& numbers) {
-  constexpr double longer = 1.5;
   std::vector<Index> lengths;
-  for (double seconds = numbers.shortest_s; seconds <= numbers.longest_s; seconds *= longer) {
+  for (double seconds = numbers.shortest_s; seconds <= numbers.longest_s; seconds *= numbers.longer) {
     auto const length = std::max<Index>(2, std::lround(seconds * rows.rate_hz));
     if ((lengths.empty() || length > lengths.back()) && length * fewest_windows <= rows.instants())
       lengths.push_back(length);
@@ -224,8 +223,8 @@ Window sharpened(Sums const& sums, Window const& around, TouchRows const& rows, 
   return best;
 }
 
-double largest_elsewhere(Sums const& sums, TouchRows const& rows, Window const& found) {
-  auto const margin = std::lround(margin_s * rows.rate_hz);
+double largest_elsewhere(Sums const& sums, TouchRows const& rows, Window const& found, TipTouchNumbers const& numbers) {
+  auto const margin = std::lround(numbers.margin_s * rows.rate_hz);
   double largest = 0.0;
   for (Index from = 0; from + found.length <= rows.instants(); ++from) {
     if (from < found.until() + margin && from + found.length > found.from - margin) continue;
@@ -234,8 +233,9 @@ double largest_elsewhere(Sums const& sums, TouchRows const& rows, Window const& 
   return largest;
 }
 
-VectorXd weights_without(RegressionData const& rows, TouchRows const& of, Window const& window) {
-  Index const margin = std::lround(margin_s * of.rate_hz), first = rows.arm->first_instant[of.file];
+VectorXd weights_without(RegressionData const& rows, TouchRows const& of, Window const& window,
+                         TipTouchNumbers const& numbers) {
+  Index const margin = std::lround(numbers.margin_s * of.rate_hz), first = rows.arm->first_instant[of.file];
   VectorXd weights = VectorXd::Ones(rows.rows());
   for (Index i = 0; i < rows.rows(); ++i) {
     Index const at = rows.arm->instant[static_cast<std::size_t>(i)] - first;
@@ -258,7 +258,7 @@ std::optional<TipTouch> touch_at(TouchRows const& rows, Sums const& sums, Window
     whole += energy;
     if (energy >= numbers.stands_out * numbers.stands_out * std::max(count, 1.0)) touch.joints.push_back(j);
   }
-  double const elsewhere = largest_elsewhere(sums, rows, found);
+  double const elsewhere = largest_elsewhere(sums, rows, found, numbers);
   // the same of a force through the tip's origin
   Matrix6 of_force = Matrix6::Identity();
   of_force.topLeftCorner<3, 3>() = square.topLeftCorner<3, 3>();
@@ -267,8 +267,7 @@ std::optional<TipTouch> touch_at(TouchRows const& rows, Sums const& sums, Window
   Vector6 const force = wrench_of(of_force, along_force);
   if (found.energy < numbers.elsewhere * elsewhere || found.energy < numbers.explained * whole) return {};
   if (touch.joints.size() < 2 || found.from == 0 || found.until() == rows.instants()) return {};
-  constexpr double nearly_all = 0.9;
-  if (along_force.dot(force) >= nearly_all * found.energy) touch.force = force.head<3>().norm();
+  if (along_force.dot(force) >= numbers.of_force * found.energy) touch.force = force.head<3>().norm();
   return touch;
 }
 
@@ -279,7 +278,7 @@ std::optional<TipTouch> find_tip_touch(RegressionData const& rows, RegressionDat
   bool const has_motion =
       rows.time_s.size() == rows.rows() && rows.dq.size() == rows.rows() && others.q.size() == others.rows();
   if (!rows.arm || !has_motion || rows.rows() == 0) return {};
-  VectorXd const left = left_of_fit(rows, VectorXd::Ones(rows.rows()));
+  VectorXd const left = left_of_fit(rows, VectorXd::Ones(rows.rows()), numbers);
   for (std::size_t file = 0; file + 1 < rows.arm->first_instant.size(); ++file) {
     Positions const positions = positions_of(rows, others, file);
     TouchRows const first = rows_of_file(rows, left, chain, positions, file);
@@ -287,7 +286,7 @@ std::optional<TipTouch> find_tip_touch(RegressionData const& rows, RegressionDat
     if (lengths.empty()) continue;
     Window const rough = most_unusual(sums_of(first), first, lengths);
     // a touch bends the fit, and shows elsewhere as well then
-    VectorXd const without = left_of_fit(rows, weights_without(rows, first, rough));
+    VectorXd const without = left_of_fit(rows, weights_without(rows, first, rough, numbers), numbers);
     TouchRows const again = rows_of_file(rows, without, chain, positions, file);
     Sums const sums = sums_of(again);
     Window const found = sharpened(sums, most_unusual(sums, again, lengths), again, numbers);

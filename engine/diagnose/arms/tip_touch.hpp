@@ -10,6 +10,7 @@
 // Threads    pure function
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,11 +19,16 @@
 
 namespace torquescope {
 
+// conventions, without a source outside
 struct TipTouchNumbers {
   double elsewhere = 20.0;  // times the energy of any other window of this length: friction that is missing has few
   double explained = 0.5;   // of the energy that is left in the window, by one wrench
   double stands_out = 3.0;  // noises (rms in the window) at two joints at least
-  double shortest_s = 0.2, longest_s = 2.0;
+  double shortest_s = 0.2, longest_s = 2.0, longer = 1.5;  // windows, each so many times the one before
+  double margin_s = 0.3;                                   // beside a touch: what the filters smear
+  double of_force = 0.9;                                   // of the energy, by a force through the tip's origin
+  // of the greatest speed: where friction that the model lacks may fade
+  std::array<double, 4> slow{0.01, 0.03, 0.1, 0.3};
 };
 
 struct TipTouch {
