@@ -153,7 +153,9 @@ std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& 
       which_joint(joint), omnibus_text(joint), refused->name, refused->reason);
 }
 
-std::string all_samples_sentence() {
+std::string all_samples_sentence(WhyAllSamples why) {
+  if (why == WhyAllSamples::could_not_ask)
+    return "All samples decide: rows that move one way, or a loop that holds the joint on them, could not be had.";
   return "All samples decide: rows that move one way explain nothing and hold less than half of what the model leaves.";
 }
 

@@ -46,6 +46,7 @@ std::string likeness_sentence(JointDiagnosis const& joint);
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
 
 // why all samples decide although moving rows were asked
-std::string all_samples_sentence();
+enum class WhyAllSamples { hidden, could_not_ask };
+std::string all_samples_sentence(WhyAllSamples why);
 
 }  // namespace torquescope

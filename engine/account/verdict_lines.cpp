@@ -206,7 +206,9 @@ VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joi
   add_noise(lines.rows.empty() ? lines.errors : lines.rows, joint.floor_relerr);
   bool const is_of_arm = diagnosis.joints.size() > 1;
   if (!is_of_arm && !diagnosis.way_out.empty()) lines.remarks.push_back(diagnosis.way_out);
-  for (auto const& sentence : {joint.timing_sentence, unseen_is_other_sentence(joint)})
+  std::string const of_validation =
+      joint.nuisances.empty() ? "" : fmt::format("of validation itself: {}", fmt::join(joint.nuisances, "; "));
+  for (auto const& sentence : {of_validation, joint.timing_sentence, unseen_is_other_sentence(joint)})
     if (!sentence.empty()) lines.remarks.push_back(sentence);
   return lines;
 }

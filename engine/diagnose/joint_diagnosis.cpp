@@ -158,7 +158,8 @@ class JointWork {
   void account_for_unseen() {
     StageSetting const& setting = found_.search->setting;
     HeldOut& held_out = found_.kept.held_out;
-    joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
+    joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage(),
+                                              {final_stage().model(), final_stage().estimate()}));
     joint_.train_left_out = told(left_out_in_training(setting, baseline(), final_stage()));
     joint_.held_out = {held_out.gain.blocks == 0               ? ""
                        : found_.others.others().unseen.empty() ? "cross-validated"
@@ -217,16 +218,14 @@ class JointWork {
     ProcessedRecord const before = plain.prepare(recording);
     full.restrict_to(before.kept_rows);
     ProcessedRecord const after = full.prepare(recording);
-    std::vector<std::string> unsaid;
     return torque_trace(recording, plain, before, before.torque - before.columns * baseline().estimate(),
-                        after.torque - after.columns * transferable(final_stage(), unsaid));
+                        after.torque - after.columns * transferable(final_stage()));
   }
 
   // of each name; waves of one kind share theirs
   std::vector<LawTorques> law_torques() const {
     std::vector<LawTorques> laws(*std::max_element(place_.begin(), place_.end()) + 1);
-    std::vector<std::string> unsaid;
-    Eigen::VectorXd const elsewhere = transferable(final_stage(), unsaid);
+    Eigen::VectorXd const elsewhere = transferable(final_stage());
     add_law_torques(laws, found_.search->setting.recording, final_stage().estimate());
     for (auto const& recording : found_.others.all) add_law_torques(laws, recording, elsewhere);
     return laws;

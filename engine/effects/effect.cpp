@@ -47,6 +47,8 @@ bool Effect::is_event() const {
   return std::any_of(parameters().begin(), parameters().end(), [](auto const& one) { return one.is_instant(); });
 }
 
+bool Effect::may_come_again() const { return is_wave() || is_event(); }
+
 bool Effect::is_wave() const {
   return n_shape() > 0 && (parameters()[n_linear_].is_order() || parameters()[n_linear_].is_frequency());
 }

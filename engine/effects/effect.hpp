@@ -184,7 +184,8 @@ class Effect {
   std::size_t n_shape() const { return parameters().size() - n_linear_; }
   bool exists_on(JointKind joint) const;  // false: it needs an angle
   bool is_event() const;                  // it begins at an instant: it belongs to one recording
-  bool is_wave() const;  // of an order or a frequency: several may be there at once, each stands for itself
+  bool is_wave() const;                   // of an order or a frequency
+  bool may_come_again() const;            // several waves or events may be there at once, each stands for itself
   std::vector<ParameterRange> shape_bounds(JointScales const&) const;   // n_shape()
   std::vector<ParameterRange> linear_bounds(JointScales const&) const;  // n_linear()
   // n_shape() numbers, or none where that is the plain form

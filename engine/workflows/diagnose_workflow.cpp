@@ -172,11 +172,17 @@ bool hides_most(Diagnosis const& diagnosis) {
   return is_silent && looks_at_less_than_half(diagnosis.joints.front());
 }
 
-// the decision on all samples where it names something; else the first one, with what the other says beside it
+bool asked_nothing(Diagnosis const& diagnosis) {
+  return diagnosis.verdict == Verdict::insufficient && diagnosis.joints.front().candidates.empty();
+}
+
+// The decision on all samples where it names something, or where the first one could not even ask; else the first one,
+// with what the other says beside it
 Diagnosis with_all_samples(Diagnosis first, Diagnosis all) {
+  bool const is_first = asked_nothing(first) && !asked_nothing(all);
   bool const says_more = names_physics(all.verdict) || all.verdict == Verdict::data_fault;
-  if (says_more) {
-    all.reason += " " + all_samples_sentence();
+  if (is_first || says_more) {
+    all.reason += " " + all_samples_sentence(is_first ? WhyAllSamples::could_not_ask : WhyAllSamples::hidden);
     return all;
   }
   first.joints.front().decision = std::move(all.joints.front().decision);
@@ -192,7 +198,7 @@ Diagnosis diagnose_one_joint(Experiment::Parts const& parts, int threads, TwinEx
   Diagnosis diagnosis = diagnose_joint(job.input(), sink).diagnosis;
   if (decider == Decider::both) diagnosis.joints.front().decision = on_all_rows().joints.front().decision;
   bool const is_whole = parts.diagnose.ablations().empty();
-  if (decider == Decider::by_job && is_whole && hides_most(diagnosis))
+  if (decider == Decider::by_job && is_whole && (hides_most(diagnosis) || asked_nothing(diagnosis)))
     return with_all_samples(std::move(diagnosis), on_all_rows());
   return diagnosis;
 }

@@ -1,8 +1,9 @@
-"""Joints as their drives log them: one that a pump shakes, and a sound one whose log is slower than its loop.
+"""Joints as their drives log them: shaken by a pump, loaded on the way, and one whose log is slower than its loop.
 
 The plant stands here and shares nothing with the engine: a rigid joint with friction, led by a controller with an
-encoder, that a torque of fixed frequency may act on. Effects of the motion each explain a little of a pump, whose phase
-is another one in each recording. A row of a slow log holds the torque of its instant, which is half a row late.
+encoder, that a torque of fixed frequency may act on, and that may pick up a load. Effects of the motion each explain a
+little of a pump, whose phase is another one in each recording. A load is picked up at another time in each. A row of a
+slow log holds the torque of its instant, which is half a row late.
 """
 
 import json
@@ -35,9 +36,11 @@ effects = {effects}
 SUBSTEPS = 8
 VISCOUS, COULOMB, STEP = 0.9, 2.0, 2 * math.pi / 2**17
 PUMP_HZ = 3.3
+WEIGHT, CARRIED = 1.6, 0.06  # N m, kg m2: of the load
 
 
-def recording(seed, seconds, pump=0.0, phase=0.0, rate_hz=250, log_every=1, inertia=0.2, noise=0.04, fastest=0.8):
+def recording(seed, seconds, pump=0.0, phase=0.0, picked_up_s=math.inf, rate_hz=250, log_every=1, inertia=0.2,
+              noise=0.04, fastest=0.8):
     """Rows of time, commanded and measured position, torque of the drive."""
     draw = random.Random(seed)
     waves = [(draw.uniform(0.4, 1.0), draw.uniform(0.08, fastest), draw.uniform(0, 2 * math.pi)) for _ in range(5)]
@@ -60,7 +63,9 @@ def recording(seed, seconds, pump=0.0, phase=0.0, rate_hz=250, log_every=1, iner
         for i in range(SUBSTEPS):
             shaken = pump * math.sin(2 * math.pi * PUMP_HZ * (t + i * step) + phase)
             friction = VISCOUS * speed + COULOMB * math.tanh(speed / 2e-3)
-            speed += step * (torque - friction - shaken) / inertia
+            load = t + i * step >= picked_up_s
+            weight = WEIGHT * math.sin(position) if load else 0.0
+            speed += step * (torque - friction - shaken - weight) / (inertia + CARRIED * load)
             position += step * speed
     return rows
 
@@ -90,6 +95,17 @@ class LoggedJoints(unittest.TestCase):
         self.assertEqual([effect["name"] for effect in joint["effects"]], ["periodic_disturbance"], said["reason"])
         frequency = next(one for one in joint["effects"][0]["parameters"] if one["name"] == "disturbance_frequency")
         self.assertAlmostEqual(frequency["value"], PUMP_HZ, delta=0.01)
+        self.assertLess(joint["augmented"]["validation_relerr"], 0.3 * joint["baseline"]["validation_relerr"])
+
+    def test_a_load_that_is_picked_up_in_both_recordings_is_named(self):
+        laws = '["payload_change", "thermal_friction", "sensor_drift", "contact"]'
+        said = said_of(recording(5, 24, picked_up_s=9.0), recording(6, 16, picked_up_s=4.2), cutoff=20, parallel=10,
+                       effects=laws)
+        joint = said["joints"][0]
+        self.assertEqual([effect["name"] for effect in joint["effects"]], ["payload_change"], said["reason"])
+        sizes = {one["name"]: one["value"] for one in joint["effects"][0]["parameters"]}
+        self.assertAlmostEqual(sizes["payload_gravity_sin"], WEIGHT, delta=0.1 * WEIGHT)
+        self.assertAlmostEqual(sizes["payload_time"], 9.0, delta=0.3)
         self.assertLess(joint["augmented"]["validation_relerr"], 0.3 * joint["baseline"]["validation_relerr"])
 
     def test_a_sound_joint_with_a_log_slower_than_its_loop_lacks_nothing(self):

@@ -90,7 +90,7 @@ class Search {
     for (auto const* law : q_.laws) {
       bool const is_taken =
           std::any_of(accepted_.begin(), accepted_.end(), [&](auto const& one) { return one.effect == law; });
-      if (is_clock_bound(*law) != of_clock || (is_taken && !law->is_wave()) || law->is_torque_timing()) continue;
+      if (is_clock_bound(*law) != of_clock || (is_taken && !law->may_come_again()) || law->is_torque_timing()) continue;
       laws.push_back(law);
     }
     return laws;

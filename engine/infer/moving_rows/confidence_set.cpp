@@ -15,7 +15,7 @@ std::vector<Effect const*> others(ModelStage const& stage, std::size_t i, std::s
   for (auto const* effect : catalogue) {
     bool const is_there =
         std::any_of(effects.begin(), effects.end(), [&](auto const& one) { return one.effect == effect; });
-    if (!is_there || (effect->is_wave() && effect != effects[i].effect)) result.push_back(effect);
+    if (!is_there || (effect->may_come_again() && effect != effects[i].effect)) result.push_back(effect);
   }
   return result;
 }
@@ -57,13 +57,13 @@ bool may_be_a_rival(EffectScan const& law, double own_gain, double alpha) {
 
 std::vector<RivalLaw> confidence_set(Evidence const& of, std::size_t i, std::span<Effect const* const> catalogue,
                                      DecisionLevels const& levels, RefinementSetting const& setting) {
-  Evidence const evidence(of, i);
+  auto const rivals = others(of.stage(), i, catalogue);
+  Evidence const evidence = Evidence(of, i).with_own_events(rivals);
   auto const& [effect, shape] = of.stage().model().effects()[i];
   FoldKind const kind = is_clock_bound(*effect) ? FoldKind::interleaved : FoldKind::whole;
   LawGain const own = evidence.gains(*effect, {shape}, kind).front();
   double const own_gain = own.total()[0];
   RowsLeft const own_left = evidence.rows_left(*effect, shape, kind), without_any = evidence.rows_left(kind);
-  auto const rivals = others(of.stage(), i, catalogue);
   CatalogueEvidence const scanned = scan_catalogue(evidence, rivals, kind, levels.alpha, setting.threads);
   std::vector<CandidateEvidence const*> near;
   for (auto const& law : scanned.laws)

@@ -52,7 +52,7 @@ void drop_wrong_signs(OrthonormalGroup const& group, Eigen::MatrixXd const& coef
 }  // namespace
 
 Evidence::Evidence(StageSetting const& setting, ModelStage const& stage, OtherRecordings const& others)
-    : stage_(&stage), training_(stage, CandidateColumns::none) {
+    : stage_(&stage), training_(stage, CandidateColumns::none), seed_(setting.seed) {
   std::uint32_t index = 1;
   auto const evidence_of = [&](Recording const& recording) {
     auto one = unseen_evidence(setting, stage, columns(), recording, index++);
@@ -71,8 +71,11 @@ Evidence::Evidence(StageSetting const& setting, ModelStage const& stage, OtherRe
   }
 }
 
-Evidence::Evidence(Evidence const& of, std::size_t without) : stage_(of.stage_), training_(*of.stage_, without) {
-  auto const without_it = [&](UnseenEvidence const& one) { return without_effect(one, *stage_, columns(), without); };
+Evidence::Evidence(Evidence const& of, std::size_t without)
+    : stage_(of.stage_), training_(*of.stage_, without), seed_(of.seed_) {
+  auto const without_it = [&](UnseenEvidence const& one) {
+    return without_effect(one, *stage_, columns(), without, seed_);
+  };
   std::vector<UnseenEvidence> further;
   for (auto const& one : of.training_.further()) further.push_back(without_it(one));
   training_.add(std::move(further), without);
@@ -101,6 +104,36 @@ void Evidence::add_unseen(UnseenEvidence one) {
   left_unseen_.conservativeResize(left_unseen_.rows() + blocks.rows(), Eigen::NoChange);
   left_unseen_.bottomRows(blocks.rows()) = blocks;
   unseen_.push_back(std::move(unseen));
+}
+
+Evidence Evidence::with_own_events(std::span<Effect const* const> laws) const {
+  Evidence result = *this;
+  for (auto const* event : laws) {
+    if (carry_over(*event) != CarryOver::none) continue;
+    std::vector<Unseen> own;
+    for (Unseen const& one : unseen_)
+      own.push_back(less(one, own_event_columns(one.evidence, *event, one.left().col(0), seed_)));
+    result.own_events_[event] = std::move(own);
+  }
+  return result;
+}
+
+std::vector<Evidence::Unseen> const& Evidence::unseen_beside(Effect const& effect) const {
+  auto const own = own_events_.find(&effect);
+  return own == own_events_.end() ? unseen_ : own->second;
+}
+
+// columns: nuisances of that recording alone
+Evidence::Unseen Evidence::less(Unseen unseen, Eigen::MatrixXd const& columns) const {
+  if (columns.cols() == 0) return unseen;
+  Eigen::MatrixXd const basis = orthonormal_basis(columns);
+  unseen.nuisance_and_left -= basis * (basis.transpose() * unseen.nuisance_and_left).eval();
+  Eigen::Index const k = unseen.nuisance_gram.cols();
+  Eigen::MatrixXd const products = inner_products(unseen.nuisance_and_left.leftCols(k), unseen.nuisance_and_left);
+  unseen.evidence.nuisance = unseen.nuisance_and_left.leftCols(k);
+  unseen.nuisance_gram = products.leftCols(k);
+  unseen.nuisance_left = products.rightCols(training_.signals());
+  return unseen;
 }
 
 Evidence::InFolds Evidence::in_folds(FoldKind kind) const {
@@ -162,7 +195,7 @@ std::vector<LawGain> Evidence::gains(Effect const& effect, std::vector<std::vect
     results.push_back(gain_in_training(candidates.back(), std::move(in_folds[i])));
     at += rank;
   }
-  for (Unseen const& there : unseen_)
+  for (Unseen const& there : unseen_beside(effect))
     add_unseen(candidates, columns_unseen(effect, shapes, rate, there.evidence), there, results);
   // nothing with the signs that physics allows; replicates are not asked for theirs, which is on the safe side
   for (std::size_t i = 0; i < results.size(); ++i)
@@ -288,7 +321,7 @@ RowsLeft Evidence::rows_left(Effect const& effect, std::vector<std::vector<doubl
   RowsLeft left{of_recordings(left_on_rows(beside.folds, both, training_.basis_and_signals().col(k), gram,
                                            stacked(picked(beside.products, 0, k, 0, 1), products)))};
   Candidate const candidate{&effect, &group, &law, products.whole};
-  for (Unseen const& one : unseen_) {
+  for (Unseen const& one : unseen_beside(effect)) {
     UnseenStep const step =
         step_unseen(candidate, side_by_side(columns_unseen(effect, shapes, LawRate::full, one.evidence)));
     Eigen::VectorXd of_law = step.law * products.whole;

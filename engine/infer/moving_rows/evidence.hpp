@@ -40,6 +40,8 @@ class Evidence {
   Evidence(StageSetting const& setting, ModelStage const& stage, OtherRecordings const& others);
   // the same replicates where effect `without` of the model is a candidate again, not a part of it
   Evidence(Evidence const& of, std::size_t without);
+  // the same, where each event of these (CarryOver::none) also happens in unseen recordings, at an instant of its own
+  Evidence with_own_events(std::span<Effect const* const> laws) const;
 
   ModelStage const& stage() const { return *stage_; }
   // of the recording that the stage was made of
@@ -94,7 +96,6 @@ class Evidence {
     Eigen::MatrixXd coefficients;  // of the group's columns, of each signal: r x (1 + M)
     BoundedGain bounded{};         // of the recording
   };
-  LawGain gain_in_training(Candidate const& candidate, Eigen::MatrixXd in_folds) const;
   // an unseen recording: training's nuisance columns there (n x k), and what their step leaves of its signals
   struct Unseen {
     UnseenEvidence evidence{};            // without its signals
@@ -102,6 +103,10 @@ class Evidence {
     Eigen::MatrixXd nuisance_gram{}, nuisance_left{};
     auto left() const { return nuisance_and_left.rightCols(nuisance_left.cols()); }
   };
+  // those in which that event happens, or all as they are
+  std::vector<Unseen> const& unseen_beside(Effect const& effect) const;
+  Unseen less(Unseen unseen, Eigen::MatrixXd const& columns) const;
+  LawGain gain_in_training(Candidate const& candidate, Eigen::MatrixXd in_folds) const;
   // What a unit of the law's orthonormal columns changes on the rows of an unseen recording: the nuisances by so much
   // (k x r), with a minus sign, and the law itself (n x r), a share of which may belong to the recording
   struct UnseenStep {
@@ -131,6 +136,8 @@ class Evidence {
   InFolds whole_{}, interleaved_{};
   Eigen::MatrixXd left_unseen_{};  // blocks x (1 + M)
   std::vector<Unseen> unseen_{};   // nuisance: of the basis of training
+  std::map<Effect const*, std::vector<Unseen>> own_events_{};
+  std::uint64_t seed_ = 0;
   std::vector<UnseenResidual> without_replicates_{};
   std::vector<std::shared_ptr<NoiseWeights const>> weights_unseen_{};
 };

@@ -9,6 +9,7 @@
 #include "engine/effects/carry_over.hpp"
 #include "engine/fit/statistics/scaled_solution.hpp"
 #include "engine/infer/pipeline/recorded_loop.hpp"
+#include "engine/infer/search/own_event.hpp"
 #include "engine/infer/search/weights_elsewhere.hpp"
 
 namespace torquescope {
@@ -101,8 +102,10 @@ Eigen::VectorXd offset_direction(ModelStage const& stage, RecordPipeline const& 
   return length > 0.0 ? Eigen::VectorXd(ones.col(0) / length) : Eigen::VectorXd();
 }
 
-// the record's offset, what laws that run down do here, and waves per second, of any size and phase
-Eigen::MatrixXd own_nuisances(ModelStage const& stage, UnseenEvidence const& of, std::size_t without) {
+// The record's offset, what runs down with the clock (its parameters from training alone would be too sure: replicates
+// of the record have none), waves per second of any size and phase, and events at instants of their own. left: what training's parameters leave
+Eigen::MatrixXd own_nuisances(ModelStage const& stage, UnseenEvidence const& of, Eigen::VectorXd left,
+                              std::size_t without, std::uint64_t seed) {
   Eigen::MatrixXd own(of.comparison->rows.size(), 0);
   auto const add = [&](Eigen::VectorXd direction) {
     constexpr double nothing_new = 1e-6;
@@ -111,34 +114,43 @@ Eigen::MatrixXd own_nuisances(ModelStage const& stage, UnseenEvidence const& of,
     if (!(direction.norm() > nothing_new * length)) return;
     own.conservativeResize(Eigen::NoChange, own.cols() + 1);
     own.rightCols(1) = direction.normalized();
+    left -= own.rightCols(1) * own.rightCols(1).col(0).dot(left);
+  };
+  auto const add_all = [&](Eigen::MatrixXd const& columns) {
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) add(columns.col(k));
   };
   if (of.offset.size() > 0) add(of.offset);
+  Eigen::Index tangent = 0;  // none of effect `without`
   for (std::size_t i = 0; i < stage.model().effects().size(); ++i) {
     auto const& [effect, shape] = stage.model().effects()[i];
     CarryOver const over = carry_over(*effect);
+    // an event that is asked for once more is one of this recording, too
+    if (over == CarryOver::none) add_all(own_event_columns(of, *effect, left, seed));
     if (i == without) continue;
-    if (over == CarryOver::in_part) add(torque_of(stage, *of.columns, i));
-    if (over != CarryOver::in_frequency) continue;
-    Eigen::MatrixXd const wave = of.columns->columns(*effect, shape);
-    for (Eigen::Index k = 0; k < wave.cols(); ++k) add(wave.col(k));
+    bool const is_of_any_size = over == CarryOver::in_part || over == CarryOver::in_frequency;
+    if (is_of_any_size) add_all(of.columns->columns(*effect, shape));
+    if (over == CarryOver::in_part)
+      add_all(of.columns->tangents().middleCols(tangent, static_cast<Eigen::Index>(shape.size())));
+    tangent += static_cast<Eigen::Index>(shape.size());
   }
   return own;
 }
 
 // what depends on which of the model's effects are nuisances
-void fill_signals(ModelStage const& stage, CandidateColumns const& training, std::size_t without,
+void fill_signals(ModelStage const& stage, CandidateColumns const& training, std::size_t without, std::uint64_t seed,
                   UnseenEvidence& result) {
   BaselineReference reference = stage.reference();
   reference.gear_load = result.pipeline->model().reference().gear_load;
   reference.given = result.pipeline->model().reference().given;
   result.columns = std::make_shared<CandidateColumns const>(*result.pipeline, *result.comparison, std::move(reference),
                                                             stage.parameters(), without);
-  result.own = own_nuisances(stage, result, without);
+  Eigen::MatrixXd signals = predicted_signals(stage, *result.comparison);
+  result.own = {};
+  result.own = own_nuisances(stage, result, signals.col(0), without, seed);
   // training's orthonormal columns are combinations of the plain ones: the same combinations here
   Eigen::MatrixXd const combination = solve_scaled(training.with_tangents(), training.nuisance());
   result.model = result.without_own(transferable_columns(stage.model(), *result.columns, without));
   result.nuisance = result.model * combination;
-  Eigen::MatrixXd signals = predicted_signals(stage, *result.comparison);
   bool const is_asked = without < stage.model().effects().size();
   if (is_asked && !is_clock_bound(*stage.model().effects()[without].effect))
     signals.col(0) += torque_of(stage, *result.columns, without);
@@ -178,7 +190,7 @@ UnseenEvidence made(StageSetting const& setting, ModelStage const& stage, Candid
   if (result.comparison->ran_away) return result;
   result.offset = offset_direction(stage, *pipeline, *result.comparison);
   result.memory_rows = guard_rows(*pipeline);
-  fill_signals(stage, training, CandidateColumns::none, result);
+  fill_signals(stage, training, CandidateColumns::none, setting.seed, result);
   return result;
 }
 
@@ -234,9 +246,23 @@ UnseenResidual unseen_residual(StageSetting const& setting, ModelStage const& st
   return {left.squaredNorm(), record.whole_torque().squaredNorm(), left.rows()};
 }
 
+Eigen::MatrixXd own_event_columns(UnseenEvidence const& of, Effect const& event, Eigen::VectorXd const& left,
+                                  std::uint64_t seed) {
+  EventQuestion question{&event, scales_during(of.columns->scales(), of.comparison->recording.motion->time_s),
+                         of.memory_rows};
+  question.seed = seed;
+  auto const columns_at = [&](std::vector<std::vector<double>> const& shapes) {
+    auto each = of.columns->columns_of_each(event, shapes);
+    for (auto& columns : each) columns = of.without_own(std::move(columns));
+    return each;
+  };
+  auto found = own_event(question, columns_at, left);
+  return found ? std::move(found->columns) : Eigen::MatrixXd(left.size(), 0);
+}
+
 UnseenEvidence without_effect(UnseenEvidence of, ModelStage const& stage, CandidateColumns const& training,
-                              std::size_t without) {
-  fill_signals(stage, training, without, of);
+                              std::size_t without, std::uint64_t seed) {
+  fill_signals(stage, training, without, seed, of);
   return of;
 }
 

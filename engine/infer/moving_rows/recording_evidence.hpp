@@ -5,8 +5,9 @@
 //            mean, scaled so that all columns have the same variance when the model is right
 // Training   residuals of the fit; nuisance columns (model and tangents of its shapes) are fitted with every candidate
 // Unseen     residuals of the prediction by the fit of training (a replicate's: by the fit of its training replicate),
-//            whitened as training is; a record's own offset, shares of laws that run down (CarryOver::in_part) and
-//            waves per second (in_frequency) are nuisances of the record and are taken out of all signals
+//            whitened as training is; a record's own offset, effects that run down (CarryOver::in_part), waves per
+//            second (in_frequency), of any size, and its own events (search/own_event.hpp) are nuisances of the record
+//            and are taken out of all signals
 // Shapes     n rows, M replicates: n x (M + 1)
 // Errors     none: a recording whose replicates cannot be made gives no evidence; what is left of it is known all the
 //            same
@@ -14,6 +15,7 @@
 // Source     engine/infer/moving_rows/THEORY.md, Rows and replicates
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -55,9 +57,14 @@ struct UnseenResidual {
 };
 UnseenResidual unseen_residual(StageSetting const& setting, ModelStage const& stage, Recording const& recording);
 
+// columns of an event where it happens in that recording, n x L, less the record's nuisances; left: n, what training's
+// parameters leave. None: it does not happen there, as far as chance lets tell
+Eigen::MatrixXd own_event_columns(UnseenEvidence const& of, Effect const& event, Eigen::VectorXd const& left,
+                                  std::uint64_t seed);
+
 // the same where effect `without` of the model is a candidate again: no nuisance, and its torque is in the recording's
 // signal. training: columns of the stage without it
 UnseenEvidence without_effect(UnseenEvidence of, ModelStage const& stage, CandidateColumns const& training,
-                              std::size_t without);
+                              std::size_t without, std::uint64_t seed);
 
 }  // namespace torquescope

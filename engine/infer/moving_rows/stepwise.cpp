@@ -114,6 +114,8 @@ class Search {
     if (state.selection.accepted.size() >= options_.max_effects || result_.states.size() > 2 * options_.max_effects + 1)
       return false;
     tell("search", 0, laws.size());
+    if (kind == FoldKind::interleaved)
+      state.evidence = std::make_shared<Evidence const>(state.evidence->with_own_events(laws));
     Evidence const& evidence = *state.evidence;
     CatalogueEvidence const catalogue = scan_catalogue(evidence, laws, kind, levels_.alpha, setting().threads);
     note_first(state.selection, catalogue);
@@ -186,7 +188,7 @@ class Search {
     std::vector<CandidateEvidence const*> found;
     for (auto const& law : catalogue.laws) {
       if (!law.scan.is_testable || law.scan.p > levels_.alpha || !(law.scan.gain > 0.0)) continue;
-      if (!law.scan.effect->is_wave() && selection.has_accepted(law.scan.effect)) continue;
+      if (!law.scan.effect->may_come_again() && selection.has_accepted(law.scan.effect)) continue;
       if (evidence.n_unseen() > 0 && law.unseen < law.least_unseen) {
         selection.rejected.push_back({law.scan.effect, "predicts validation recordings worse than without it"});
         continue;
@@ -206,6 +208,12 @@ class Search {
     return false;
   }
 
+  // Gains are of held-out rows, which a model predicts badly that lacks an event in the fold; energies are of the fit
+  static double energy_a_held_out_one(Evidence const& evidence, FoldKind kind) {
+    double const held_out = evidence.left_in_folds(kind).col(0).head(n_folds).sum();
+    return std::min(1.0, energy_about_true_mean(evidence.stage()) / held_out);
+  }
+
   bool take(RefinedCandidate const& candidate, CatalogueEvidence const& catalogue) {
     auto const* effect = candidate.evidence.scan.effect;
     SearchState const& state = result_.end();
@@ -216,7 +224,8 @@ class Search {
     CandidateEvidence const& found = candidate.evidence;
     double const by_chance = found.first_mean + catalogue.chance * found.first_spread;
     // it may be beyond chance by the rows of other recordings alone
-    double const least_taken = found.first > by_chance ? by_chance : found.first_mean;
+    double const least_gain = found.first > by_chance ? by_chance : found.first_mean;
+    double const least_taken = least_gain * energy_a_held_out_one(evidence, found.folds);
     auto draft = simulated(setting(), evidence, candidate, least_taken);
     if (!draft) return refuse(effect, "replicates with it do not follow the reference");
     if (energy_about_true_mean(*before) - energy_about_true_mean(*draft) < least_taken)

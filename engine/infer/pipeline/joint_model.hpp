@@ -53,6 +53,12 @@ class JointModel {
   // the same model on that recording: its gear load and what other joints do there, or none
   void load_as_in(Recording const& recording);
   std::vector<ShapedEffect> const& effects() const { return effects_; }
+  // effect i at another shape
+  JointModel with_shape(std::size_t i, std::vector<double> shape) const {
+    JointModel other = *this;
+    other.effects_[i].shape = std::move(shape);
+    return other;
+  }
   std::size_t size() const;
   // index of the first parameter of effect i
   std::size_t first_parameter(std::size_t effect) const;

@@ -143,7 +143,12 @@ void leave_out_new_motion(StageSetting const& setting, Recording const& recordin
 }  // namespace
 
 RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage) {
-  RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
+  return pipeline_for(setting, recording, stage, stage.model());
+}
+
+RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage,
+                            JointModel model) {
+  RecordPipeline pipeline = pipeline_for(setting, recording, std::move(model));
   pipeline.bound_effects(stage.pipeline->bounds_effects());
   leave_out_new_motion(setting, recording, pipeline);
   return pipeline;

@@ -81,6 +81,9 @@ struct ModelStage {
 
 // the same for the stage's model, and its fits bounded as the stage's are
 RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage);
+// model: the stage's, with events at other instants
+RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage,
+                            JointModel model);
 
 // of a recording that is predicted: that move one way within the motion of training
 Eigen::Index judged_rows(StageSetting const& setting, Recording const& recording);

@@ -85,6 +85,27 @@ Bounds ShapeGrid::box(std::size_t index) const {
   return bounds;
 }
 
+std::vector<double> ShapeGrid::to_unit_scale(std::vector<double> const& shape) const {
+  std::vector<double> unit;
+  for (std::size_t k = 0; k < ranges.size(); ++k) unit.push_back(to_unit(ranges[k], shape[k]));
+  return unit;
+}
+
+std::vector<double> ShapeGrid::from_unit_scale(std::vector<double> const& unit) const {
+  std::vector<double> shape;
+  for (std::size_t k = 0; k < ranges.size(); ++k) shape.push_back(from_unit(ranges[k], unit[k]));
+  return shape;
+}
+
+std::vector<double> ShapeGrid::half_steps() const {
+  std::vector<double> steps;
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    auto const points = static_cast<double>(axes[k].size());
+    steps.push_back(ranges[k].upper > ranges[k].lower ? (points > 1.0 ? 0.5 / (points - 1.0) : 0.5) : 0.0);
+  }
+  return steps;
+}
+
 ShapeGrid grid_over(std::vector<ParameterRange> ranges, std::vector<std::vector<double>> axes, GridPoints points) {
   constexpr std::ptrdiff_t fewest_for_a_lattice = 3;
   ShapeGrid grid{std::move(ranges), std::move(axes), {}};

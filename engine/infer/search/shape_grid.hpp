@@ -33,6 +33,10 @@ struct ShapeGrid {
   std::vector<double> point(std::size_t index) const;
   // of a refinement round point(index), in the unit scale
   Bounds box(std::size_t index) const;
+  std::vector<double> to_unit_scale(std::vector<double> const& shape) const;
+  std::vector<double> from_unit_scale(std::vector<double> const& unit) const;
+  // half the way to the next point, in the unit scale; 0 where there is one value
+  std::vector<double> half_steps() const;
 };
 
 ShapeGrid shape_grid(Effect const& effect, JointScales const& scales);

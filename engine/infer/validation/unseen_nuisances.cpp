@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "engine/effects/carry_over.hpp"
+#include "engine/fit/statistics/scaled_solution.hpp"
 #include "engine/infer/pipeline/motion_limits.hpp"
+#include "engine/infer/search/own_event.hpp"
 #include "engine/simulate/autoregression.hpp"
 
 namespace torquescope {
@@ -100,7 +102,7 @@ char const* why_left_out(Effect const& effect) {
 
 }  // namespace
 
-Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances) {
+Eigen::VectorXd transferable(ModelStage const& stage) {
   Eigen::VectorXd parameters = stage.estimate();
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -111,7 +113,6 @@ Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& 
         .segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
                  static_cast<Eigen::Index>(effect.n_linear()))
         .setZero();
-    if (over == CarryOver::none) nuisances.push_back(effect.name() + why_left_out(effect));
   }
   return parameters;
 }
@@ -120,6 +121,46 @@ void refit_on_head(ModelStage const& stage, ProcessedRecord const& record, Eigen
                    std::vector<std::string>& nuisances) {
   turn_waves(stage, record, parameters, nuisances);
   scale_clocks(stage, record, parameters, nuisances);
+}
+
+ModelElsewhere with_own_events(ModelStage const& stage, RecordPipeline const& pipeline, ProcessedRecord const& record,
+                               ModelElsewhere there, std::uint64_t seed, std::vector<std::string>& nuisances) {
+  auto const& effects = stage.model().effects();
+  auto const is_asked = [](ShapedEffect const& one) { return carry_over(*one.effect) == CarryOver::none; };
+  if (std::none_of(effects.begin(), effects.end(), is_asked)) return there;
+  Eigen::VectorXd left = record.torque - record.columns * there.parameters;
+  bool const has_own_offset = moves_both_ways(pipeline.picked(record.motion->dq, record));
+  if (has_own_offset) left.array() -= left.mean();
+  FittedBaseline const baseline = on_motion(stage.model().regressor(), stage.model().reference(), record.motion);
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    Effect const& effect = *effects[i].effect;
+    if (!is_asked(effects[i])) continue;
+    auto const width = static_cast<Eigen::Index>(effect.n_linear());
+    auto const columns_at = [&](std::vector<std::vector<double>> const& shapes) {
+      std::vector<Eigen::MatrixXd> each;
+      for (auto const& shape : shapes) {
+        Eigen::MatrixXd signals(record.motion->q.size(), width);
+        effect.columns(baseline.input(record.motion), shape, signals);
+        each.push_back(pipeline.filtered_columns(signals, record));
+        if (has_own_offset) each.back().rowwise() -= each.back().colwise().mean().eval();
+      }
+      return each;
+    };
+    EventQuestion question{&effect, scales_during(stage.model().reference().scales, record.motion->time_s),
+                           guard_rows(pipeline)};
+    question.seed = seed;
+    auto const own = own_event(question, columns_at, left);
+    if (!own) {
+      nuisances.push_back(effect.name() + why_left_out(effect));
+      continue;
+    }
+    Eigen::VectorXd const size = solve_scaled(own->columns, left);
+    left -= own->columns * size;
+    there.model = there.model.with_shape(i, own->shape);
+    there.parameters.segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)), width) = size;
+    nuisances.push_back(effect.name() + " at a time and of a size of its own, fitted to all of its rows");
+  }
+  return there;
 }
 
 double head_offset(Eigen::VectorXd const& residual, Eigen::VectorXd const& velocity) {

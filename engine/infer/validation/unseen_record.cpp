@@ -28,16 +28,16 @@ std::optional<RecordedLoop> loop_of(Recording const& recording, StageSetting con
   return recorded_loop(recording, {}, {}, [&](std::vector<LimitedSample> const&) -> Eigen::VectorXd {
     RecordPipeline const pipeline = pipeline_for(setting, recording, stage);
     ProcessedRecord const record = pipeline.prepare(recording);
-    std::vector<std::string> unsaid;
-    Eigen::VectorXd const parameters = transferable(stage, unsaid);  // an event of the training recording is none here
+    Eigen::VectorXd const parameters = transferable(stage);  // an event of the training recording is none here
     return pipeline.model().motor_torque(record.motion, record.drive, parameters).given;
   });
 }
 
-double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {
-  JointModel model = stage.model();
-  model.load_as_in(recording);
-  CleanTwin const twin(model.twin_joint(stage.estimate()), noiseless(loop.loop), loop.track, stage.twin->twin.step_s());
+double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage,
+                      ModelElsewhere there) {
+  there.model.load_as_in(recording);
+  CleanTwin const twin(there.model.twin_joint(there.parameters), noiseless(loop.loop), loop.track,
+                       stage.twin->twin.step_s());
   TwinGroup group;
   twin.simulate({}, 0, group);
   if (group.ran_away[0]) return unknown;
@@ -97,8 +97,8 @@ PredictionEnergies energies_of(Eigen::VectorXd const& before, Eigen::VectorXd co
 
 // with the artefact of the final model, which that effect changes little
 PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effect, ProcessedRecord const& after,
-                                  Eigen::VectorXd const& left_with, Eigen::VectorXd const& artefact,
-                                  Eigen::VectorXd const& shares) {
+                                  Eigen::VectorXd const& parameters, Eigen::VectorXd const& left_with,
+                                  Eigen::VectorXd const& artefact, Eigen::VectorXd const& shares) {
   auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(effect));
   auto const width = static_cast<Eigen::Index>(augmented.model().effects()[effect].effect->n_linear());
   // what the other terms would have been fitted to without it: they take its torque up as far as they can
@@ -106,8 +106,7 @@ PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effec
   std::vector<Eigen::Index> others;
   for (Eigen::Index k = 0; k < trained.cols(); ++k)
     if (k < first || k >= first + width) others.push_back(k);
-  Eigen::VectorXd const& parameters = augmented.estimate();
-  Eigen::VectorXd const torque = trained.middleCols(first, width) * parameters.segment(first, width);
+  Eigen::VectorXd const torque = trained.middleCols(first, width) * augmented.estimate().segment(first, width);
   Eigen::VectorXd const refitted = parameters(others) + solve_scaled(trained(Eigen::all, others), torque);
   Eigen::VectorXd left = after.torque - after.columns(Eigen::all, others) * refitted;
   take_out(artefact, left);
@@ -116,23 +115,23 @@ PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effec
 
 struct Predictor {
   ModelStage const& stage;
-  Eigen::VectorXd parameters;
+  ModelElsewhere there;
   double offset;
 
   // on every kept sample
   Eigen::VectorXd left(ProcessedRecord const& record) const {
-    return ((record.torque - record.columns * parameters).array() - offset).matrix();
+    return ((record.torque - record.columns * there.parameters).array() - offset).matrix();
   }
 };
 
 LeftOutRows left_out_of(Recording const& recording, StageSetting const& setting, Predictor const& before,
                         Predictor const& after, std::vector<Eigen::Index> const& kept_rows) {
-  auto const on_all_rows = [&](ModelStage const& stage) {
-    RecordPipeline pipeline = pipeline_for(setting, recording, stage);
+  auto const on_all_rows = [&](Predictor const& by) {
+    RecordPipeline pipeline = pipeline_for(setting, recording, by.stage, by.there.model);
     pipeline.restrict_to(pipeline.all_rows());
     return pipeline.prepare(recording);
   };
-  ProcessedRecord const whole_before = on_all_rows(before.stage), whole_after = on_all_rows(after.stage);
+  ProcessedRecord const whole_before = on_all_rows(before), whole_after = on_all_rows(after);
   return left_out_rows(whole_before.whole_torque(), before.left(whole_before), after.left(whole_after), kept_rows);
 }
 
@@ -146,9 +145,16 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   ProcessedRecord before = plain.prepare(recording);
   check_rows(before, recording.name);
   full.restrict_to(before.kept_rows);
-  ProcessedRecord const after = full.prepare(recording);
-  Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
-  refit_on_head(augmented, after, parameters, result.nuisances);
+  ProcessedRecord after = full.prepare(recording);
+  Eigen::VectorXd begun = transferable(augmented);
+  refit_on_head(augmented, after, begun, result.nuisances);
+  result.there = with_own_events(augmented, full, after, {augmented.model(), begun}, setting.seed, result.nuisances);
+  Eigen::VectorXd const& parameters = result.there->parameters;
+  if (parameters != begun) {
+    RecordPipeline there = pipeline_for(setting, recording, augmented, result.there->model);
+    there.restrict_to(before.kept_rows);
+    after = there.prepare(recording);
+  }
   Eigen::VectorXd left_before = before.torque - before.columns * baseline.estimate();
   Eigen::VectorXd left_after = after.torque - after.columns * parameters;
   Artefacts const artefacts(artefact, baseline, augmented, before.kept_rows);
@@ -180,12 +186,12 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   plain.take_shares(shares, before.kept_rows);
   result.torque_energy = weighed_energy(before.whole_torque(), shares);
   result.energies = energies_of(left_before, left_after, shares);
-  result.left_out = left_out_of(recording, setting, {baseline, baseline.estimate(), offset_before},
-                                {augmented, parameters, offset_after}, before.kept_rows);
+  result.left_out = left_out_of(recording, setting, {baseline, {baseline.model(), baseline.estimate()}, offset_before},
+                                {augmented, *result.there, offset_after}, before.kept_rows);
   result.kept_rows = before.kept_rows;
   result.memory_rows = guard_rows(plain);
   for (std::size_t i = 0; i < augmented.model().effects().size(); ++i)
-    result.by_effect.push_back(without_effect(augmented, i, after, left_with, artefacts.after, shares));
+    result.by_effect.push_back(without_effect(augmented, i, after, parameters, left_with, artefacts.after, shares));
   result.trace = torque_trace(recording, plain, before, left_before, left_after);
   result.left_before = left_before.cwiseProduct(shares);
   result.left_after = left_after.cwiseProduct(shares);
@@ -219,21 +225,22 @@ TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipel
 }
 
 ForwardSimulation simulate_forward(Recording const& recording, std::optional<RecordedLoop> const& loop,
-                                   ModelStage const& baseline, ModelStage const& augmented) {
+                                   ModelStage const& baseline, ModelStage const& augmented,
+                                   ModelElsewhere const& there) {
   ForwardSimulation result;
   result.recording = recording.name;
   result.encoder_step = baseline.twin->loop.loop.encoder_step;
   double const mean = recording.position.mean();
   result.motion_rms = std::sqrt((recording.position.array() - mean).square().mean());
   if (!loop || loop->source == LoopSource::tracking) return result;
-  result.before_rms = position_error(recording, *loop, baseline);
-  result.after_rms = position_error(recording, *loop, augmented);
+  result.before_rms = position_error(recording, *loop, baseline, {baseline.model(), baseline.estimate()});
+  result.after_rms = position_error(recording, *loop, augmented, there);
   return result;
 }
 
 LeftOutRows left_out_in_training(StageSetting const& setting, ModelStage const& baseline, ModelStage const& augmented) {
   auto const fitted = [](ModelStage const& stage) {
-    return Predictor{stage, stage.comparison.recording.parameters, 0.0};
+    return Predictor{stage, {stage.model(), stage.comparison.recording.parameters}, 0.0};
   };
   return left_out_of(setting.recording, setting, fitted(baseline), fitted(augmented),
                      baseline.comparison.recording.kept_rows);
@@ -255,7 +262,7 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
     };
   UnseenResult result{predict(recording, setting, baseline, augmented, artefact, weights)};
   if (!(result.torque_energy > 0.0)) return result;
-  result.forward = simulate_forward(recording, loop, baseline, augmented);
+  result.forward = simulate_forward(recording, loop, baseline, augmented, *result.there);
   if (!loop) return result;
   try {
     account_for_twins(recording, setting, augmented, *loop, weights, result);

@@ -12,10 +12,12 @@
 // Source     engine/infer/moving_rows/THEORY.md, Rows and replicates
 
 #include <memory>
+#include <optional>
 
 #include "engine/fit/statistics/prediction_energies.hpp"
 #include "engine/infer/pipeline/left_out_rows.hpp"
 #include "engine/infer/search/selection.hpp"
+#include "engine/infer/validation/unseen_nuisances.hpp"
 #include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
@@ -30,6 +32,7 @@ struct UnseenPrediction {
   std::vector<PredictionEnergies> by_effect{};  // without and with each, no offset refitted in either
   TorqueTrace trace{};
   std::vector<std::string> nuisances{};
+  std::optional<ModelElsewhere> there{};  // the final model as that recording has it
   // all of them, when what processing makes of a complete model at reversals was taken out of the residuals
   // (unseen_floor.hpp)
   std::vector<Eigen::Index> rows{};
@@ -47,9 +50,10 @@ UnseenResult check_unseen(Recording const& recording, StageSetting const& settin
                           ModelStage const& augmented, std::shared_ptr<NoiseWeights const> weights = {});
 
 // closed loop from the recording's reference, without noise, before and after; without a loop, or in one that follows
-// the measured motion: unknown
+// the measured motion: unknown. there: the augmented model in that recording
 ForwardSimulation simulate_forward(Recording const& recording, std::optional<RecordedLoop> const& loop,
-                                   ModelStage const& baseline, ModelStage const& augmented);
+                                   ModelStage const& baseline, ModelStage const& augmented,
+                                   ModelElsewhere const& there);
 
 // of the setting's own recording, with the parameters fitted to it
 LeftOutRows left_out_in_training(StageSetting const& setting, ModelStage const& baseline, ModelStage const& augmented);
