@@ -102,8 +102,9 @@ Eigen::VectorXd offset_direction(ModelStage const& stage, RecordPipeline const& 
   return length > 0.0 ? Eigen::VectorXd(ones.col(0) / length) : Eigen::VectorXd();
 }
 
-// The record's offset, what runs down with the clock (its parameters from training alone would be too sure: replicates
-// of the record have none), waves per second of any size and phase, and events at instants of their own. left: what training's parameters leave
+// The record's offset, what runs down with the clock (replicates of the record have none: its parameters would be too
+// sure), waves per second of any size and phase, and events at instants of their own. left: what training's
+// parameters leave
 Eigen::MatrixXd own_nuisances(ModelStage const& stage, UnseenEvidence const& of, Eigen::VectorXd left,
                               std::size_t without, std::uint64_t seed) {
   Eigen::MatrixXd own(of.comparison->rows.size(), 0);
