@@ -149,7 +149,8 @@ class Verdicts(unittest.TestCase):
         """The slower the filter, the longer the stretch round each reversal that it spoils."""
         slow = "parallel_cutoff_hz = 5\n"
         short, sound = self.with_spring(self.rows)[:1000], self.rows[:1000]
-        masked = self.said_of(short, effects='["spring"]\nreversals = "mask"', filters=slow)
+        alone = '["spring"]\nreversals = "mask"\ndecider = "moving_rows"'
+        masked = self.said_of(short, effects=alone, filters=slow)
         self.assertEqual(masked["verdict"], "insufficient")
         self.assertIn("rows are left between reversals, 100 are needed", masked["reason"])
         weighed = self.said_of(short, filters=slow)
