@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/dense_solvers.hpp"
+#include "engine/base/median.hpp"
 
 namespace torquescope {
 namespace {
@@ -98,9 +100,7 @@ ColumnLook own_look(std::string const& name, std::vector<double> const& values) 
     look.look = Look::constant;
     return look;
   }
-  auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  look.step = *middle;
+  look.step = upper_median(std::move(steps));
   if (backwards == 0)
     look.look = Look::clock;
   else if (others == 0)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/median.hpp"
 #include "engine/data/data_problem.hpp"
 
 namespace torquescope {
@@ -29,12 +30,6 @@ void check_forwards(std::vector<double> const& stamps, RawTable const& table) {
                       table.path, line_of(table, i),
                       fmt::format("two recordings in one file? split it at {}", row_name(table, i)));
     });
-}
-
-double median(std::vector<double> values) {
-  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 std::vector<double> steps_of(std::vector<double> const& times) {
@@ -202,7 +197,7 @@ Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& t
   sampling.times = times_of(stamps_s, first_of_repeats);
   sampling.facts.repeated = static_cast<Eigen::Index>(n_repeated);
   auto const steps = steps_of(sampling.times);
-  double const typical = median(steps);
+  double const typical = upper_median(steps);
   check_step(typical, table);
   sampling.gaps = find_gaps(sampling, typical, table);
   count_missing(sampling, steps, typical);

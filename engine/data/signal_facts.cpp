@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/median.hpp"
 #include "engine/base/order_statistic.hpp"
 
 namespace torquescope {
@@ -138,7 +139,6 @@ double white_noise(Eigen::Ref<Eigen::VectorXd const> const& signal) {
     for (Eigen::Index i = 1; i + 1 < signal.size(); ++i)
       visit(std::fabs(signal[i - 1] - 2 * signal[i] + signal[i + 1]));
   };
-  constexpr double median_of_normal = 0.6744897501960817;  // of |z|
   // variance 1 + 4 + 1
   return median_of(for_each_bend, static_cast<std::size_t>(signal.size() - 2)) / (median_of_normal * std::sqrt(6.0));
 }

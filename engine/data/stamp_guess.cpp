@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "engine/base/median.hpp"
 #include "engine/data/column_suggestion.hpp"
 #include "engine/data/columns.hpp"
 #include "engine/data/ros_stamp.hpp"
@@ -29,9 +31,7 @@ double median_step(std::vector<double> const& stamps) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < stamps.size(); ++i)
     if (stamps[i] > stamps[i - 1]) steps.push_back(stamps[i] - stamps[i - 1]);
-  auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return upper_median(std::move(steps));
 }
 
 bool suits_a_recording(double step_s) { return step_s >= shortest_step_s && step_s < longest_step_s; }

@@ -246,10 +246,4 @@ std::string prior_fault(LinkInertia const& link) {
   return sizes.minCoeff() > rounding * sizes.maxCoeff() ? "" : "it has no thickness";
 }
 
-MatrixXd information_root(MatrixXd const& covariance) {
-  auto const factor = cholesky_of(covariance);
-  TORQUESCOPE_EXPECT(factor.has_value());
-  return factor->solve_lower(MatrixXd::Identity(covariance.rows(), covariance.cols()));
-}
-
 }  // namespace torquescope

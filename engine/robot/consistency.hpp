@@ -54,7 +54,4 @@ ConsistentParameters consistent_parameters(SerialChain const& chain, BaseParamet
 // why nothing is near this body, though it may be one ("it has no thickness"), or ""
 std::string prior_fault(LinkInertia const& link);
 
-// R from a covariance. Requires it positive definite
-Eigen::MatrixXd information_root(Eigen::MatrixXd const& covariance);
-
 }  // namespace torquescope

@@ -11,15 +11,6 @@
 
 namespace torquescope {
 
-namespace {
-
-RandomStream stream_at(RandomKey const& key, NoiseStream stream, std::size_t index) {
-  TORQUESCOPE_EXPECT(index <= std::numeric_limits<std::uint32_t>::max());
-  return {key, static_cast<std::uint32_t>(stream), static_cast<std::uint32_t>(index)};
-}
-
-}  // namespace
-
 OptionTable<NoiseOptions> const& NoiseOptions::table() {
   constexpr double unlimited = std::numeric_limits<double>::max();
   using O = NoiseOptions;
@@ -41,11 +32,8 @@ OptionTable<NoiseOptions> const& NoiseOptions::table() {
 }
 
 double addressed_uniform(RandomKey const& key, NoiseStream stream, std::size_t index) {
-  return stream_at(key, stream, index).uniform();
-}
-
-double addressed_normal(RandomKey const& key, NoiseStream stream, std::size_t index) {
-  return stream_at(key, stream, index).normal();
+  TORQUESCOPE_EXPECT(index <= std::numeric_limits<std::uint32_t>::max());
+  return RandomStream(key, static_cast<std::uint32_t>(stream), static_cast<std::uint32_t>(index)).uniform();
 }
 
 void addressed_normals(RandomKey const& key, NoiseStream stream, std::size_t first, std::span<double> normals) {

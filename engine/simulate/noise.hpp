@@ -39,8 +39,7 @@ struct NoiseOptions {
 
 // `key.run` is the index of the recording, `key.domain` RandomDomain::simulation
 double addressed_uniform(RandomKey const& key, NoiseStream stream, std::size_t index);  // [0, 1)
-double addressed_normal(RandomKey const& key, NoiseStream stream, std::size_t index);   // standard normal
-// those from `first` on: the same bits, several times as fast
+// standard normal, those from `first` on: the bits of RandomStream::normal(), several times as fast
 void addressed_normals(RandomKey const& key, NoiseStream stream, std::size_t first, std::span<double> normals);
 
 // Gaussian noise with exponential correlation, one sample after the other.

@@ -16,6 +16,10 @@ Eigen::MatrixXd inverse(Eigen::MatrixXd const& positive) {
   return solve_positive(positive, Eigen::MatrixXd(Eigen::MatrixXd::Identity(positive.rows(), positive.cols())));
 }
 
+Eigen::MatrixXd information_root(Eigen::MatrixXd const& covariance) {
+  return cholesky_of(covariance)->solve_lower(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
+}
+
 Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric) { return symmetric_eigenvalues(symmetric); }
 
 Eigen::VectorXd singular_values(Eigen::MatrixXd const& matrix) { return torquescope::singular_values(matrix); }

@@ -15,6 +15,9 @@ Eigen::VectorXd left_beside(Eigen::MatrixXd const& columns, Eigen::VectorXd cons
 // of a positive definite matrix
 Eigen::MatrixXd inverse(Eigen::MatrixXd const& positive);
 
+// R of a positive definite covariance: R' R is its inverse
+Eigen::MatrixXd information_root(Eigen::MatrixXd const& covariance);
+
 // of a symmetric matrix, ascending
 Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric);
 

@@ -5,7 +5,9 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
+#include "engine/base/median.hpp"
 #include "engine/data/health/examination.hpp"
 #include "engine/data/levels.hpp"
 #include "engine/data/signal_facts.hpp"
@@ -72,9 +74,7 @@ std::map<double, std::vector<Place>> places_of(std::vector<double> const& x) {
 double typical_step(std::vector<double> const& x) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < x.size(); ++i) steps.push_back(std::fabs(x[i] - x[i - 1]));
-  auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return upper_median(std::move(steps));
 }
 
 // away from the rows beside it, which go on as if neither it nor others of its value were there. least: of its size

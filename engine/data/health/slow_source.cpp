@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "engine/base/median.hpp"
 #include "engine/data/health/value_runs.hpp"
 
 namespace torquescope {
@@ -11,9 +14,7 @@ namespace {
 double period_of_rows(std::vector<double> const& time_s, std::vector<std::size_t> const& rows) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(time_s[rows[k]] - time_s[rows[k - 1]]);
-  auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return upper_median(std::move(steps));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/median.hpp"
 #include "engine/data/levels.hpp"
 #include "engine/data/signal_facts.hpp"
 
@@ -29,11 +30,9 @@ bool is_one_sample(std::size_t length, double rows) {
 }
 
 // T of the header
-double rows_of_a_sample(std::vector<std::size_t> lengths) {
+double rows_of_a_sample(std::vector<std::size_t> const& lengths) {
   constexpr int enough = 5;
-  auto const middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  auto rows = static_cast<double>(*middle);
+  auto rows = static_cast<double>(upper_median(lengths));
   for (int k = 0; k < enough && rows > 1.0; ++k) {
     double sum = 0.0, count = 0.0;
     for (std::size_t length : lengths)

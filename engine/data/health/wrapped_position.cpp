@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <utility>
 
+#include "engine/base/median.hpp"
 #include "engine/data/health/position_steps.hpp"
 
 namespace torquescope {
@@ -86,9 +88,7 @@ void unwrap_reference(Examination& exam, double modulus) {
   for (std::size_t i = 0; i < reference.size(); ++i)
     if (std::isfinite(reference[i]) && std::isfinite(position[i])) apart.push_back(position[i] - reference[i]);
   if (apart.empty()) return;
-  auto const middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
-  std::nth_element(apart.begin(), middle, apart.end());
-  double const whole = modulus * std::round(*middle / modulus);
+  double const whole = modulus * std::round(upper_median(std::move(apart)) / modulus);
   for (double& value : reference) value += whole;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/median.hpp"
 
 namespace torquescope {
 
@@ -14,12 +15,7 @@ constexpr double flat_share = 1e-12;
 constexpr std::size_t flat_generations = 10, stagnant_generations = 120, per_parameter = 30, longest_span = 20000;
 constexpr double compared_share = 0.3;
 
-double median_of(std::span<double const> values) {
-  std::vector<double> copy(values.begin(), values.end());
-  auto const middle = copy.begin() + static_cast<std::ptrdiff_t>(copy.size() / 2);
-  std::nth_element(copy.begin(), middle, copy.end());
-  return *middle;
-}
+double median_of(std::span<double const> values) { return upper_median(std::vector(values.begin(), values.end())); }
 
 bool is_no_better_now(std::span<double const> values) {
   auto const compared = static_cast<std::size_t>(std::ceil(compared_share * static_cast<double>(values.size())));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/base/median.hpp"
 #include "engine/base/random_stream.hpp"
 #include "engine/data/levels.hpp"
 #include "engine/data/motion.hpp"
@@ -34,11 +35,9 @@ double noise_of(VectorXd const& signal, double step) {
   for (Index k = 1; k <= orders && difference.size() > 2; ++k) {
     difference = (difference.tail(difference.size() - 1) - difference.head(difference.size() - 1)).eval();
     variance *= static_cast<double>(2 * (2 * k - 1)) / static_cast<double>(k);
-    VectorXd sizes = difference.cwiseAbs();
-    auto const middle = sizes.begin() + sizes.size() / 2;
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    constexpr double median_of_normal = 0.6745;
-    least = std::min(least, *middle / median_of_normal / std::sqrt(variance));
+    VectorXd const sizes = difference.cwiseAbs();
+    double const middle = upper_median(std::vector(sizes.begin(), sizes.end()));
+    least = std::min(least, middle / median_of_normal / std::sqrt(variance));
   }
   return std::max(quantisation, least);
 }

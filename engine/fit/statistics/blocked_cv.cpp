@@ -1,7 +1,6 @@
 #include "engine/fit/statistics/blocked_cv.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "engine/base/contract.hpp"
@@ -67,35 +66,6 @@ Eigen::VectorXd interleaved_residuals(Eigen::VectorXd const& signal, Eigen::Matr
     left(inside) = signal(inside) - columns(inside, Eigen::all) * theta;
   }
   return left;
-}
-
-double most_in_a_block(Eigen::VectorXd const& torque) {
-  double const whole = torque.squaredNorm();
-  double most = 0.0;
-  for (auto const& block : equal_blocks(torque.size(), n_folds))
-    most = std::max(most, torque.segment(block.from, block.size()).squaredNorm());
-  return whole > 0.0 ? most / whole : 0.0;
-}
-
-BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const& model, Eigen::MatrixXd const& effect,
-                         Eigen::Index guard_rows) {
-  TORQUESCOPE_EXPECT(mismatch.size() >= fewest_rows && model.rows() == mismatch.size() &&
-                     effect.rows() == mismatch.size());
-  Eigen::MatrixXd both(mismatch.size(), model.cols() + effect.cols());
-  both << model, effect;
-  BlockedGain result;
-  for (auto const& block : equal_blocks(mismatch.size(), n_folds)) {
-    double const gain = left_inside(block, mismatch, model, guard_rows).squaredNorm() -
-                        left_inside(block, mismatch, both, guard_rows).squaredNorm();
-    result.per_block.push_back(gain);
-    result.gain += gain;
-  }
-  double const mean = result.gain / static_cast<double>(n_folds);
-  double squares = 0.0;
-  for (double gain : result.per_block) squares += (gain - mean) * (gain - mean);
-  double const error = std::sqrt(squares / static_cast<double>(n_folds * (n_folds - 1)));
-  result.t = error > 0.0 ? mean / error : 0.0;
-  return result;
 }
 
 }  // namespace torquescope

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "engine/base/median.hpp"
 
 namespace torquescope {
 
@@ -38,10 +41,7 @@ double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline
     sum = 0.0;
     count = 0;
   }
-  if (energies.empty()) return 0.0;
-  auto const middle = energies.begin() + static_cast<std::ptrdiff_t>(energies.size() / 2);
-  std::nth_element(energies.begin(), middle, energies.end());
-  return *middle;
+  return energies.empty() ? 0.0 : upper_median(std::move(energies));
 }
 
 NoiseLevel disturbance_level(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,

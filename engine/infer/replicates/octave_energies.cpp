@@ -1,8 +1,9 @@
 #include "engine/infer/replicates/octave_energies.hpp"
 
-#include <algorithm>
 #include <numbers>
+#include <utility>
 
+#include "engine/base/median.hpp"
 #include "engine/fit/statistics/hat_functions.hpp"
 #include "engine/infer/replicates/disturbance_level.hpp"
 
@@ -61,10 +62,7 @@ double median_of_blocks(std::vector<double> const& squares, std::size_t block) {
     for (std::size_t i = from; i < from + block; ++i) sum += squares[i];
     energies.push_back(sum / static_cast<double>(block));
   }
-  if (energies.empty()) return 0.0;
-  auto const middle = energies.begin() + static_cast<std::ptrdiff_t>(energies.size() / 2);
-  std::nth_element(energies.begin(), middle, energies.end());
-  return *middle;
+  return energies.empty() ? 0.0 : upper_median(std::move(energies));
 }
 
 }  // namespace

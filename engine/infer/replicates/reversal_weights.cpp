@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/median.hpp"
 #include "engine/infer/replicates/twin_batch.hpp"
 
 namespace torquescope {
@@ -27,13 +28,6 @@ RowSpread spread_of(Eigen::Ref<Eigen::RowVectorXd const, 0, Eigen::InnerStride<>
   for (double const value : row)
     if (value != not_kept) result.squares += std::pow(value - sum / result.count, 2);
   return result;
-}
-
-// values: at least one
-double median(std::vector<double> values) {
-  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // a quarter period of the cut-off either side: within it filtered rows are one and the same
@@ -72,7 +66,7 @@ NoiseWeights weights_of(NoiseWeights const& plain, Eigen::VectorXd const& varian
   for (Eigen::Index const k : moving)
     if (variance[k] != not_kept) ordinary.push_back(variance[k]);
   if (ordinary.empty()) return plain;
-  double const noise = median(std::move(ordinary));
+  double const noise = upper_median(std::move(ordinary));
   return plain.with_shares(variance.unaryExpr([&](double one) { return one > noise ? std::sqrt(noise / one) : 1.0; }));
 }
 

@@ -67,20 +67,6 @@ std::vector<Candidate> candidate_table(Selection const& selection, double q, dou
   return candidates;
 }
 
-void note_not_tried(Selection& selection, std::vector<EffectScan> const& scans, std::vector<double> const& q,
-                    double level, bool is_open) {
-  if (selection.accepted.empty()) return;
-  std::string const names =
-      selection.accepted.size() == 1 ? selection.accepted.front().effect->name() : std::string("what is named");
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (!scans[i].is_testable || selection.first_q[i] > level) continue;
-    if (q[i] > level)
-      selection.rejected.push_back({scans[i].effect, "within chance beside " + names});
-    else if (!is_open || scans[i].gain <= 0.0)
-      selection.rejected.push_back({scans[i].effect, "too little is left for it beside " + names});
-  }
-}
-
 void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect> const& effects) {
   for (auto& candidate : candidates)
     for (auto const& effect : effects) {

@@ -18,10 +18,6 @@ namespace torquescope {
 // q: level above which one is within chance; blocked_excess: of the baseline (blocked_mismatch.hpp)
 std::vector<Candidate> candidate_table(Selection const& selection, double q, double blocked_excess);
 
-// A round of the search after the first: why those that were beyond chance at first are not looked at again
-void note_not_tried(Selection& selection, std::vector<EffectScan> const& scans, std::vector<double> const& q,
-                    double level, bool is_open);
-
 // those that some named effect could be as well
 void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect> const& effects);
 

@@ -53,11 +53,4 @@ std::optional<RefinedEffect> OwnMotionShapes::everywhere() {
   return ringing;
 }
 
-std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, EffectScan const& scan,
-                                                  Eigen::VectorXd const& mismatch, OwnMotionSearch const& how,
-                                                  int threads) {
-  OwnMotionShapes shapes(own, scan, mismatch, how.optimiser, how.seed, threads);
-  return how.everywhere ? shapes.everywhere() : shapes.nearby();
-}
-
 }  // namespace torquescope

@@ -20,15 +20,6 @@ struct BothMotions {
   CandidateColumns const& of(DrivenBy motion) const { return motion == DrivenBy::twin ? twin : recording; }
 };
 
-struct OwnMotionSearch {
-  std::string optimiser = "de";
-  std::uint64_t seed = 0;
-  // Not next to the grid's best point alone: what rings has a maximum of its own for every cycle that two shapes have
-  // in common, and the grid is too coarse to tell which is the highest. Eight members a shape: of six seeds, three to
-  // six found the shape of a gap with 20 members, five or six with 40
-  bool everywhere = false;
-};
-
 // The searches of one effect, each made once: that of the whole bounds begins with what is next to the grid's best
 // point
 class OwnMotionShapes {
@@ -39,7 +30,10 @@ class OwnMotionShapes {
 
   // nothing for an effect without memory, or one that explains nothing there
   std::optional<RefinedEffect> const& nearby();
-  std::optional<RefinedEffect> everywhere();  // counts the evaluations of nearby() as well
+  // Not next to the grid's best point alone: what rings has a maximum of its own for every cycle that two shapes have
+  // in common, and the grid is too coarse to tell which is the highest. Eight members a shape: of six seeds, three to
+  // six found the shape of a gap with 20 members, five or six with 40. Counts the evaluations of nearby() as well
+  std::optional<RefinedEffect> everywhere();
 
  private:
   ShapeSearch longer_search() const;
@@ -54,10 +48,5 @@ class OwnMotionShapes {
   std::optional<std::size_t> point_{};
   std::optional<RefinedEffect> nearby_{};
 };
-
-// one of them
-std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, EffectScan const& scan,
-                                                  Eigen::VectorXd const& mismatch, OwnMotionSearch const& how,
-                                                  int threads);
 
 }  // namespace torquescope

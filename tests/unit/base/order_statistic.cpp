@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "engine/base/median.hpp"
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
@@ -60,6 +62,17 @@ TEST(KthSmallest, IsThatOfSortingWhereASampleMisleads) {
 TEST(KthSmallest, OrdersTheSmallestAndTheLargest) {
   using limits = std::numeric_limits<double>;
   expect_sorted_order({limits::infinity(), 0.0, limits::denorm_min(), limits::min(), limits::max(), 1.0}, 1);
+}
+
+TEST(UpperMedian, IsTheMiddleOneAndOfTwoTheGreater) {
+  EXPECT_EQ(upper_median(std::vector{3.0, -1.0, 2.0}), 2.0);
+  EXPECT_EQ(upper_median(std::vector{4, 1, 3, 2}), 3);
+  auto const values = magnitudes(501);
+  EXPECT_EQ(upper_median(values), kth_smallest(each_of(values), 250));
+}
+
+TEST(MedianOfNormal, HalvesTheSizesOfNormalNumbers) {
+  EXPECT_DOUBLE_EQ(std::erf(median_of_normal / std::sqrt(2.0)), 0.5);
 }
 
 }  // namespace order_statistic_test

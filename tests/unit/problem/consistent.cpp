@@ -11,6 +11,7 @@
 #include "engine/fit/problem/estimator.hpp"
 #include "engine/robot/consistency.hpp"
 #include "engine/robot/pseudo_inertia.hpp"
+#include "support/decompositions.hpp"
 #include "unit/problem/arm_data.hpp"
 #include "unit/problem/joint_data.hpp"
 
@@ -64,7 +65,7 @@ double distance_of_bodies(ArmModel const& model, LeastSquaresFit const& fit) {
   Index const p = model.base().size();
   auto const found =
       consistent_parameters(model.chain(), model.base(),
-                            {fit.parameters.head(p), information_root(fit.covariance_naive.topLeftCorner(p, p))});
+                            {fit.parameters.head(p), test::information_root(fit.covariance_naive.topLeftCorner(p, p))});
   return found.distance;
 }
 

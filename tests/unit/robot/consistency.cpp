@@ -33,7 +33,7 @@ Estimate estimate_of(std::uint32_t number, DriveInertias drives, double noise) {
     rows.middleRows(n * sample, n) = base.pick(arm_regressor(arm.chain, draw(), draw(), draw(), drives));
   }
   Eigen::MatrixXd const covariance = noise * noise * test::inverse(rows.transpose() * rows);
-  return {arm, base, {base.from_standard(standard_parameters(arm.chain, drives)), information_root(covariance)}};
+  return {arm, base, {base.from_standard(standard_parameters(arm.chain, drives)), test::information_root(covariance)}};
 }
 
 // the estimate, off by `errors` standard errors in a random direction

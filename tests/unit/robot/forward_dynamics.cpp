@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/robot/arm_energy.hpp"
 #include "engine/robot/base_parameters.hpp"
+#include "unit/robot/arm_energy.hpp"
 #include "unit/robot/example_arms.hpp"
 
 namespace torquescope {
@@ -37,7 +37,7 @@ TEST(MassMatrix, IsTwiceTheKineticEnergy) {
     auto const arm = test::random_arm(number, number % 2 == 0);
     auto const chi = standard_parameters(arm.chain, DriveInertias::included);
     double const twice = arm.dq.dot(mass_matrix(arm.chain, chi, arm.q) * arm.dq);
-    EXPECT_NEAR(2.0 * kinetic_energy(arm.chain, chi, arm.q, arm.dq), twice, 1e-12 * twice);
+    EXPECT_NEAR(2.0 * test::kinetic_energy(arm.chain, chi, arm.q, arm.dq), twice, 1e-12 * twice);
   }
 }
 
@@ -84,17 +84,17 @@ TEST(ArmEnergy, OfAFallingArmIsConserved) {
     return change;
   };
   auto const energy = [&] {
-    return kinetic_energy(arm.chain, chi, state.head(n), state.tail(n)) +
-           potential_energy(arm.chain, chi, state.head(n));
+    return test::kinetic_energy(arm.chain, chi, state.head(n), state.tail(n)) +
+           test::potential_energy(arm.chain, chi, state.head(n));
   };
-  double const before = energy(), potential = potential_energy(arm.chain, chi, arm.q);
+  double const before = energy(), potential = test::potential_energy(arm.chain, chi, arm.q);
   double const step_s = 1e-4;
   for (int step = 0; step < 500; ++step) {
     Eigen::VectorXd const a = slope(state), b = slope(state + 0.5 * step_s * a), c = slope(state + 0.5 * step_s * b),
                           d = slope(state + step_s * c);
     state += step_s / 6.0 * (a + 2.0 * b + 2.0 * c + d);
   }
-  EXPECT_GT(std::abs(potential_energy(arm.chain, chi, state.head(n)) - potential), 0.1);  // it has moved
+  EXPECT_GT(std::abs(test::potential_energy(arm.chain, chi, state.head(n)) - potential), 0.1);  // it has moved
   EXPECT_NEAR(energy(), before, 1e-9 * std::abs(before));
 }
 

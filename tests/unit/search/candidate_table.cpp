@@ -73,20 +73,6 @@ TEST(CandidateTable, WhatTheSearchSaidLastStands) {
   EXPECT_EQ(candidate(selection, "presliding").reason, "last");
 }
 
-TEST(CandidateTable, OfALaterRoundSaysWhatIsLeftBesideTheNames) {
-  Selection selection = selection_of(true);
-  auto const scans = selection.first_scan;
-  std::vector<double> const q{1.0, 0.3, 0.01, 0.9, 0.01, 1.0};
-  note_not_tried(selection, scans, q, 0.05, true);
-  EXPECT_TRUE(selection.rejected.empty()) << "nothing is named yet";
-  selection.accepted = {accepted("stribeck")};
-  note_not_tried(selection, scans, q, 0.05, false);
-  EXPECT_EQ(candidate(selection, "presliding").reason, "within chance beside stribeck");
-  EXPECT_EQ(candidate(selection, "cogging").reason, "too little is left for it beside stribeck");
-  // it never was beyond chance
-  EXPECT_EQ(candidate(selection, "backlash").reason, "within chance (p above 0.05)");
-}
-
 TEST(CandidateTable, AGainOnOtherBlocksIsAShareOfWhatIsThere) {
   Selection selection = selection_of(true);
   EXPECT_DOUBLE_EQ(candidate(selection, "stribeck").cv_gain, 0.8);

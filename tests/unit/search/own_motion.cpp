@@ -82,11 +82,13 @@ class OwnMotion : public testing::Test {
     EffectScan scan;
     scan.effect = find_effect(effect);
     scan.grid = shape_grid(*scan.effect, columns.twin.scales());
-    scan.best_point = best_plausible_point(columns.twin, scan, stage.mismatch(), 2).value_or(0);
+    scan.best_point = best_plausible_point(columns.twin, scan, mismatch, 2).value_or(0);
     scan.shape = scan.grid.point(scan.best_point);
     scan.is_testable = true;
     return scan;
   }
+
+  OwnMotionShapes shapes_of(EffectScan const& scan) const { return {columns.recording, scan, mismatch, "de", 1, 2}; }
 
   explicit OwnMotion(Machine const& machine = {}) : recording(recorded(machine)) {}
 
@@ -95,14 +97,14 @@ class OwnMotion : public testing::Test {
   Section const section{};
   StageSetting const setting{recording, clean_regressor(), filter, section, 64, 1, 2};
   ModelStage const stage = make_stage(setting, clean_regressor()).value();
+  Eigen::VectorXd const mismatch = stage.mismatch();
   BothMotions const columns{stage};
-  OwnMotionSearch const search{"de", 1};
 };
 
 TEST_F(OwnMotion, TellsTheResonanceThatATwinsMotionHides) {
   EffectScan const scan = scan_of("joint_elasticity");
-  RefinedEffect const by_twin = refine_shape(columns.twin, scan, stage.mismatch(), shape_search("de", 1), 2);
-  auto const own = refine_on_own_motion(columns.recording, scan, stage.mismatch(), search, 2);
+  RefinedEffect const by_twin = refine_shape(columns.twin, scan, mismatch, shape_search("de", 1), 2);
+  auto const own = shapes_of(scan).nearby();
   ASSERT_TRUE(own);
   EXPECT_GT(own->gain, by_twin.gain);
   EXPECT_NEAR(own->shape[0], spring_hz, 0.01 * spring_hz);
@@ -123,8 +125,8 @@ TEST_F(OwnMotionOfAStiffeningGear, IsSearchedEverywhere) {
   frequencies = {frequencies.front(), frequencies[frequencies.size() / 2], frequencies.back()};  // point nowhere
   scan.grid = grid_over(scan.grid.ranges, axes, GridPoints::all);
   scan.best_point = 0;
-  auto const near = refine_on_own_motion(columns.recording, scan, stage.mismatch(), search, 2);
-  auto const own = refine_on_own_motion(columns.recording, scan, stage.mismatch(), {"de", 1, true}, 2);
+  auto shapes = shapes_of(scan);
+  auto const near = shapes.nearby(), own = shapes.everywhere();
   ASSERT_TRUE(own && near);
   EXPECT_GT(own->gain, 1.4 * near->gain) << "a soft gear that stiffens much, next to the grid's best point";
   EXPECT_LT(own->shape[2], 0.2 * near->shape[2]);
@@ -139,7 +141,7 @@ class OwnMotionOfALateCurrent : public OwnMotion {
 
 TEST_F(OwnMotionOfALateCurrent, HasTheRingingThatATwinsMotionLacks) {
   EffectScan const scan = scan_of("actuator_lag");
-  auto const own = refine_on_own_motion(columns.recording, scan, stage.mismatch(), search, 2);
+  auto const own = shapes_of(scan).nearby();
   ASSERT_TRUE(own);
   // the law has no shape to look for, and what it explains is looked for all the same
   EXPECT_GT(own->gain, 1.2 * scan.gain);
@@ -147,7 +149,9 @@ TEST_F(OwnMotionOfALateCurrent, HasTheRingingThatATwinsMotionLacks) {
 }
 
 TEST_F(OwnMotion, IsNotAskedOfALawWithoutMemory) {
-  EXPECT_FALSE(refine_on_own_motion(columns.recording, scan_of("stribeck"), stage.mismatch(), search, 2));
+  EffectScan const scan = scan_of("stribeck");
+  EXPECT_FALSE(shapes_of(scan).nearby());
+  EXPECT_FALSE(shapes_of(scan).everywhere());
 }
 
 }  // namespace own_motion_test

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/robot/arm_energy.hpp"
 #include "engine/simulate/joint_plant.hpp"
+#include "unit/robot/arm_energy.hpp"
 #include "unit/simulate/arms.hpp"
 #if defined(TORQUESCOPE_MUJOCO)
 #include "unit/robot/mujoco_model.hpp"
@@ -22,7 +22,7 @@ ArmState start_of(test::RandomArm const& arm) { return {0.0, arm.q, arm.dq}; }
 
 double energy(SerialChain const& chain, ArmState const& state) {
   auto const chi = standard_parameters(chain, DriveInertias::included);
-  return kinetic_energy(chain, chi, state.q, state.dq) + potential_energy(chain, chi, state.q);
+  return test::kinetic_energy(chain, chi, state.q, state.dq) + test::potential_energy(chain, chi, state.q);
 }
 
 ArmState moved(ArmPlant&& plant, ArmState state, VectorXd const& u, double duration_s, int steps) {

@@ -23,29 +23,37 @@ double autocovariance(std::vector<double> const& values, std::size_t lag) {
   return sum / static_cast<double>(values.size() - lag);
 }
 
-TEST(AddressedNoise, DependsOnTheAddressOnly) {
-  double const first = addressed_normal(key, NoiseStream::torque_white, 77);
-  addressed_normal(key, NoiseStream::position, 3);
-  drawn(ColouredNoise(key, NoiseStream::disturbance, 1.0, 0.1, 1000.0), 100);
-  EXPECT_EQ(addressed_normal(key, NoiseStream::torque_white, 77), first);
+double normal_at(RandomKey const& address, NoiseStream stream, std::size_t index) {
+  double normal = 0.0;
+  addressed_normals(address, stream, index, {&normal, 1});
+  return normal;
 }
 
-TEST(AddressedNoise, OfManyHasTheBitsOfEach) {
+TEST(AddressedNoise, DependsOnTheAddressOnly) {
+  double const first = normal_at(key, NoiseStream::torque_white, 77);
+  normal_at(key, NoiseStream::position, 3);
+  drawn(ColouredNoise(key, NoiseStream::disturbance, 1.0, 0.1, 1000.0), 100);
+  EXPECT_EQ(normal_at(key, NoiseStream::torque_white, 77), first);
+}
+
+TEST(AddressedNoise, OfManyHasTheBitsOfEachAddressOfTheRandomStream) {
   // tails too: one of seven
   std::vector<double> normals(1000);
-  for (std::size_t first : {0u, 5u, 4'000'000'000u}) {
+  for (std::uint32_t first : {0u, 5u, 4'000'000'000u}) {
     addressed_normals(key, NoiseStream::torque_coloured, first, normals);
-    for (std::size_t i = 0; i < normals.size(); ++i)
-      ASSERT_EQ(normals[i], addressed_normal(key, NoiseStream::torque_coloured, first + i)) << first + i;
+    for (std::uint32_t i = 0; i < normals.size(); ++i) {
+      RandomStream stream(key, static_cast<std::uint32_t>(NoiseStream::torque_coloured), first + i);
+      ASSERT_EQ(normals[i], stream.normal()) << first + i;
+    }
   }
 }
 
 TEST(AddressedNoise, DiffersInEveryPartOfTheAddress) {
-  double const here = addressed_normal(key, NoiseStream::torque_white, 5);
-  EXPECT_NE(here, addressed_normal(key, NoiseStream::torque_white, 6));
-  EXPECT_NE(here, addressed_normal(key, NoiseStream::position, 5));
-  EXPECT_NE(here, addressed_normal({11, 1, RandomDomain::simulation}, NoiseStream::torque_white, 5));
-  EXPECT_NE(here, addressed_normal({12, 0, RandomDomain::simulation}, NoiseStream::torque_white, 5));
+  double const here = normal_at(key, NoiseStream::torque_white, 5);
+  EXPECT_NE(here, normal_at(key, NoiseStream::torque_white, 6));
+  EXPECT_NE(here, normal_at(key, NoiseStream::position, 5));
+  EXPECT_NE(here, normal_at({11, 1, RandomDomain::simulation}, NoiseStream::torque_white, 5));
+  EXPECT_NE(here, normal_at({12, 0, RandomDomain::simulation}, NoiseStream::torque_white, 5));
 }
 
 TEST(ColouredNoise, WhiteHasTheStandardDeviationAskedFor) {

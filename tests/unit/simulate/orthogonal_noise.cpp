@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 #include <cmath>
+#include <span>
 
 #include "engine/simulate/noise.hpp"
 
@@ -15,9 +16,8 @@ RandomKey const key{21, 0, RandomDomain::simulation};
 
 Eigen::MatrixXd random_regressor(Eigen::Index n, Eigen::Index p) {
   Eigen::MatrixXd phi(n, p);
-  for (Eigen::Index i = 0; i < phi.size(); ++i)
-    phi.data()[i] =
-        addressed_normal({99, 0, RandomDomain::test}, NoiseStream::torque_white, static_cast<std::size_t>(i));
+  std::span const numbers(phi.data(), static_cast<std::size_t>(phi.size()));
+  addressed_normals({99, 0, RandomDomain::test}, NoiseStream::torque_white, 0, numbers);
   return phi;
 }
 

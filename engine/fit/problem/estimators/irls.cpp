@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/median.hpp"
 #include "engine/base/order_statistic.hpp"
 #include "engine/fit/problem/estimator.hpp"
 
@@ -72,7 +73,7 @@ LeastSquaresFit fit_irls(RegressionData const& data, IrlsOptions const& options)
   double limit = 0.0;
   while (!fit.converged && fit.iterations < options.max_iterations) {
     Eigen::VectorXd const residual = data.tau - data.phi * fit.parameters;
-    fit.scale = std::max(median_absolute(residual) / 0.6744897501960817, least_scale);
+    fit.scale = std::max(median_absolute(residual) / median_of_normal, least_scale);
     limit = options.tuning * fit.scale;
     fit.weights = huber_weights(residual, limit);
     Eigen::VectorXd const next = solve_weighted(data, fit.weights);

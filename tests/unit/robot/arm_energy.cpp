@@ -1,9 +1,9 @@
-#include "engine/robot/arm_energy.hpp"
+#include "unit/robot/arm_energy.hpp"
 
 #include "engine/base/contract.hpp"
 #include "engine/robot/vector3.hpp"
 
-namespace torquescope {
+namespace torquescope::test {
 
 namespace {
 
@@ -44,4 +44,4 @@ double potential_energy(SerialChain const& chain, JointVector const& parameters,
   return energy;
 }
 
-}  // namespace torquescope
+}  // namespace torquescope::test

@@ -11,10 +11,10 @@
 
 #include "engine/robot/inverse_dynamics.hpp"
 
-namespace torquescope {
+namespace torquescope::test {
 
 double kinetic_energy(SerialChain const& chain, JointVector const& parameters, JointVector const& q,
                       JointVector const& dq);
 double potential_energy(SerialChain const& chain, JointVector const& parameters, JointVector const& q);
 
-}  // namespace torquescope
+}  // namespace torquescope::test
