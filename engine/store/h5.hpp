@@ -99,6 +99,7 @@ void flush(Handle const& file);
 // h5_group.cpp. "/runs/fade": steps from the root; "/" is the root itself
 bool exists(Handle const& file, std::string const& path);
 Handle open_object(Handle const& file, std::string const& path);
+Handle open_child(Handle const& group, std::string const& name);
 Handle make_groups(Handle const& file, std::string const& path);
 bool is_group(Handle const& object);
 std::uint64_t address(Handle const& object);                // in the file: the same for every name of one object

@@ -30,16 +30,16 @@ bool has_child(Handle const& group, std::string const& name) {
   return true;
 }
 
-Handle open_child(Handle const& group, std::string const& name) {
-  if (!has_child(group, name)) throw Failure("there is no \"" + name + "\"");
-  return Handle(checked(H5Oopen(group.id(), name.c_str(), H5P_DEFAULT), "open an object"));
-}
-
 Handle root_of(Handle const& file) {
   return Handle(checked(H5Oopen(file.id(), "/", H5P_DEFAULT), "open the root group"));
 }
 
 }  // namespace
+
+Handle open_child(Handle const& group, std::string const& name) {
+  if (!has_child(group, name)) throw Failure("there is no \"" + name + "\"");
+  return Handle(checked(H5Oopen(group.id(), name.c_str(), H5P_DEFAULT), "open an object"));
+}
 
 bool exists(Handle const& file, std::string const& path) {
   Handle object = root_of(file);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/base/error.hpp"
 #include "engine/store/disk_failure.hpp"
 #include "engine/store/file_seal.hpp"
@@ -54,8 +56,7 @@ h5::DatasetInfo describe_as(h5::Element element, h5::Handle const& dataset) {
 }
 
 template <class Array>
-Array read_array(h5::Handle const& file, std::string const& path, h5::Element element) {
-  h5::Handle const dataset = h5::open_object(file, path);
+Array read_array(h5::Handle const& dataset, h5::Element element) {
   h5::DatasetInfo const info = describe_as(element, dataset);
   Array array{info.shape, {}};
   array.values.resize(info.rows() * info.values_per_row());
@@ -68,14 +69,22 @@ void expect_rows(h5::DatasetInfo const& info, std::size_t first, std::size_t cou
 }
 
 template <class Value>
-std::vector<Value> read_some_rows(h5::Handle const& file, std::string const& path, h5::Element element,
-                                  std::size_t first, std::size_t count) {
-  h5::Handle const dataset = h5::open_object(file, path);
+std::vector<Value> read_some_rows(h5::Handle const& dataset, h5::Element element, std::size_t first,
+                                  std::size_t count) {
   h5::DatasetInfo const info = describe_as(element, dataset);
   expect_rows(info, first, count);
   std::vector<Value> values(count * info.values_per_row());
   h5::read_rows(dataset, info, first, count, values.data());
   return values;
+}
+
+template <class Value>
+void read_into(h5::Handle const& dataset, h5::Element element, std::size_t first, std::size_t count,
+               std::span<Value> to) {
+  h5::DatasetInfo const info = describe_as(element, dataset);
+  expect_rows(info, first, count);
+  if (to.size() != count * info.values_per_row()) throw h5::Failure("its rows are not as wide as they should be");
+  h5::read_rows(dataset, info, first, count, to.data());
 }
 
 }  // namespace
@@ -104,44 +113,72 @@ ResultReader::ResultReader(FilePlace const& place) : open_(place), file_(open_ch
     throw refused(open_.path().string() + " was never finished", run_again);
 }
 
+h5::Handle const& ResultReader::object(std::string const& path) const {
+  if (path == object_.path) return object_.handle;
+  std::size_t const slash = path.rfind('/');
+  bool const has_group = slash != std::string::npos && slash + 1 < path.size();
+  std::string const group = has_group ? path.substr(0, std::max<std::size_t>(1, slash)) : "";
+  object_ = {};
+  if (!has_group) {
+    object_ = {path, h5::open_object(file_, path)};
+    return object_.handle;
+  }
+  if (group != group_.path) {
+    group_ = {};
+    group_ = {group, h5::open_object(file_, group)};
+  }
+  object_ = {path, h5::open_child(group_.handle, path.substr(slash + 1))};
+  return object_.handle;
+}
+
 bool ResultReader::exists(std::string const& path) const {
   return guarded(path, [&] { return h5::exists(file_, path); });
 }
 
 std::vector<std::string> ResultReader::children(std::string const& group) const {
   return guarded(group, [&] {
-    h5::Handle const object = h5::open_object(file_, group);
-    return h5::is_group(object) ? h5::child_names(object) : std::vector<std::string>();
+    h5::Handle const& there = object(group);
+    return h5::is_group(there) ? h5::child_names(there) : std::vector<std::string>();
   });
 }
 
 h5::DatasetInfo ResultReader::layout(std::string const& path) const {
-  return guarded(path, [&] { return h5::describe(h5::open_object(file_, path)); });
+  return guarded(path, [&] { return h5::describe(object(path)); });
 }
 
 h5::Shape ResultReader::shape(std::string const& path) const { return layout(path).shape; }
 
 ResultReader::Numbers ResultReader::numbers(std::string const& path) const {
-  return guarded(path, [&] { return read_array<Numbers>(file_, path, h5::Element::number); });
+  return guarded(path, [&] { return read_array<Numbers>(object(path), h5::Element::number); });
 }
 
 ResultReader::WholeNumbers ResultReader::whole_numbers(std::string const& path) const {
-  return guarded(path, [&] { return read_array<WholeNumbers>(file_, path, h5::Element::whole_number); });
+  return guarded(path, [&] { return read_array<WholeNumbers>(object(path), h5::Element::whole_number); });
 }
 
 std::vector<double> ResultReader::number_rows(std::string const& path, std::size_t first, std::size_t count) const {
-  return guarded(path, [&] { return read_some_rows<double>(file_, path, h5::Element::number, first, count); });
+  return guarded(path, [&] { return read_some_rows<double>(object(path), h5::Element::number, first, count); });
 }
 
 std::vector<std::int64_t> ResultReader::whole_number_rows(std::string const& path, std::size_t first,
                                                           std::size_t count) const {
   return guarded(path,
-                 [&] { return read_some_rows<std::int64_t>(file_, path, h5::Element::whole_number, first, count); });
+                 [&] { return read_some_rows<std::int64_t>(object(path), h5::Element::whole_number, first, count); });
+}
+
+void ResultReader::read_rows(std::string const& path, std::size_t first, std::size_t count,
+                             std::span<double> to) const {
+  guarded(path, [&] { read_into(object(path), h5::Element::number, first, count, to); });
+}
+
+void ResultReader::read_rows(std::string const& path, std::size_t first, std::size_t count,
+                             std::span<std::int64_t> to) const {
+  guarded(path, [&] { read_into(object(path), h5::Element::whole_number, first, count, to); });
 }
 
 std::vector<std::string> ResultReader::texts(std::string const& path) const {
   return guarded(path, [&] {
-    h5::Handle const dataset = h5::open_object(file_, path);
+    h5::Handle const& dataset = object(path);
     h5::DatasetInfo const info = describe_as(h5::Element::text, dataset);
     return h5::read_texts(dataset, info, 0, info.rows());
   });
@@ -149,7 +186,7 @@ std::vector<std::string> ResultReader::texts(std::string const& path) const {
 
 std::vector<std::string> ResultReader::text_rows(std::string const& path, std::size_t first, std::size_t count) const {
   return guarded(path, [&] {
-    h5::Handle const dataset = h5::open_object(file_, path);
+    h5::Handle const& dataset = object(path);
     h5::DatasetInfo const info = describe_as(h5::Element::text, dataset);
     expect_rows(info, first, count);
     return h5::read_texts(dataset, info, first, count);
@@ -158,7 +195,7 @@ std::vector<std::string> ResultReader::text_rows(std::string const& path, std::s
 
 template <class Value>
 std::optional<Value> ResultReader::find_attribute(std::string const& object_path, std::string const& name) const {
-  return guarded(object_path, [&] { return read_attribute_as<Value>(h5::open_object(file_, object_path), name); });
+  return guarded(object_path, [&] { return read_attribute_as<Value>(object(object_path), name); });
 }
 
 template <class Value>
@@ -181,7 +218,7 @@ template std::vector<double> ResultReader::attribute(std::string const&, std::st
 template std::vector<std::string> ResultReader::attribute(std::string const&, std::string const&) const;
 
 std::vector<std::string> ResultReader::attribute_names(std::string const& object_path) const {
-  return guarded(object_path, [&] { return h5::attribute_names(h5::open_object(file_, object_path)); });
+  return guarded(object_path, [&] { return h5::attribute_names(object(object_path)); });
 }
 
 std::string ResultReader::content_sha256() const { return attribute<std::string>("/", content_digest_key); }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ class ResultReader {
   // rows [first, first + count) of the first dimension alone; 65 when there are fewer
   std::vector<double> number_rows(std::string const& path, std::size_t first, std::size_t count) const;
   std::vector<std::int64_t> whole_number_rows(std::string const& path, std::size_t first, std::size_t count) const;
+  // the same into memory that is there, of as many values
+  void read_rows(std::string const& path, std::size_t first, std::size_t count, std::span<double> to) const;
+  void read_rows(std::string const& path, std::size_t first, std::size_t count, std::span<std::int64_t> to) const;
   std::vector<std::string> texts(std::string const& path) const;
   std::vector<std::string> text_rows(std::string const& path, std::size_t first, std::size_t count) const;
 
@@ -71,9 +75,18 @@ class ResultReader {
  private:
   template <class Read>
   auto guarded(std::string const& object, Read&& read) const;
+  h5::Handle const& object(std::string const& path) const;
+
+  struct OpenObject {
+    std::string path;  // "": none
+    h5::Handle handle;
+  };
 
   ReadFile open_;
   h5::Handle file_;
+  // asked for last, and the group that it is in: the next is mostly the same or beside it, and each step from the root
+  // costs more than a small dataset
+  mutable OpenObject group_, object_;
 };
 
 // opens and reads all of it: exit code 65 when one bit of the content has changed

@@ -14,6 +14,7 @@
 #include "engine/base/error.hpp"
 #include "engine/experiment/runs/disk_room.hpp"
 #include "engine/experiment/runs/population_stage.hpp"
+#include "engine/experiment/runs/segment_look.hpp"
 #include "engine/store/shard_lock.hpp"
 #include "engine/workflows/workflows.hpp"
 
@@ -117,19 +118,15 @@ bool read_now(std::filesystem::path const& segment_folder, JobStatus& status) {
   status = {};
   std::map<std::string, Covered> estimators;
   std::map<std::tuple<std::string, std::int64_t, std::string>, JobStatus::Writer> writers;
-  auto const opened = [](SegmentFile&) {};
   OpenFolder const folder(segment_folder);
-  auto const places = segments_in(folder);
-  auto const harmless = harmless_segments(places, opened);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    auto const& place = places[i];
+  SegmentLook look(segments_in(folder), [](SegmentFile&) {});
+  for (std::size_t i = 0; i < look.places().size(); ++i) {
     try {
-      if (!harmless[i]) look_at_segment(place, opened);
-      SegmentFile const file(place);
-      auto const& origin = file.origin();
+      SegmentFacts const facts = look.facts(i);
+      auto const& origin = facts.origin;
       status.job_name = origin.job_name;
       status.job_sha256 = origin.job_sha256;
-      status.bytes += file.bytes();
+      status.bytes += facts.bytes;
       auto& writer = writers[{origin.host, origin.pid, origin.started}];
       writer.shard = static_cast<std::int64_t>(origin.shard_index);
       writer.shards = static_cast<std::int64_t>(origin.shard_count);
@@ -139,7 +136,7 @@ bool read_now(std::filesystem::path const& segment_folder, JobStatus& status) {
       writer.last_written = std::max(writer.last_written, origin.written);
       ++writer.segments;
       writer.is_alive = is_alive(origin);
-      for (auto const& [label, index] : file.estimators()) {
+      for (auto const& [label, index] : facts.estimators) {
         auto& covered = estimators[label];
         covered.shape = index.shape;
         for (auto const& entry : index.entries) {
@@ -151,7 +148,7 @@ bool read_now(std::filesystem::path const& segment_folder, JobStatus& status) {
       }
     } catch (Error const& error) {
       if (error.code() == ExitCode::no_input) is_whole = false;
-      if (error.code() == ExitCode::bad_data) status.damaged.push_back(place.name);
+      if (error.code() == ExitCode::bad_data) status.damaged.push_back(look.places()[i].name);
     }
   }
   for (auto const& [label, covered] : estimators) status.estimators.push_back(summed(label, covered));

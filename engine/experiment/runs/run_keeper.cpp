@@ -150,11 +150,9 @@ void RunKeeper::write(std::unique_lock<std::mutex>& lock) {
     if (run.whole) {
       auto const known = safe.find(id);
       std::size_t const first = known == safe.end() ? 0 : known->second;
-      RunPart part = part_of(*run.whole, estimator.shape, id.second, first, run.whole->told);
-      part.ended = true;
-      part.history.stop_reason = run.whole->stop_reason;
-      part.history.parameters = run.whole->parameters;
+      RunPart part{.run = id.second, .first = first, .count = run.whole->told - first, .ended = true};
       part.state = run.whole->last_state;
+      part.whole = run.whole;
       estimator.parts.push_back(std::move(part));
       ++ended;
     } else {

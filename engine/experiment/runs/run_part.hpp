@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +52,8 @@ struct RunPart {
   bool ended = false;                // then the whole history's end is in the part
   RunHistory history{};              // of these generations; nonfinite and elapsed_s count from the run's beginning
   OptimiserState state{};            // of its optimiser at the end; of a run that has ended, the history's last state
+  // to be written without a copy: all of the run that has these generations, and `history` says nothing
+  std::shared_ptr<RunHistory const> whole{};
 
   std::size_t end() const { return first + count; }
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/experiment/runs/segment_look.hpp"
 #include "engine/store/own_folder.hpp"
 
 namespace torquescope {
@@ -27,38 +28,38 @@ bool same_lists(HistoryShape const& a, HistoryShape const& b) {
   return a.generations == b.generations && a.members == b.members && a.parameters == b.parameters;
 }
 
-Error other_job(SegmentFile const& file, SegmentOrigin const& expected) {
-  bool const other_text = file.origin().job_sha256 != expected.job_sha256;
-  std::string const folder = file.name().parent_path().string();
+Error other_job(SegmentFacts const& file, SegmentOrigin const& expected) {
+  bool const other_text = file.origin.job_sha256 != expected.job_sha256;
+  std::string const folder = file.name.parent_path().string();
   Problem problem;
   problem.code = ExitCode::bad_job;
-  problem.what = fmt::format(
-      "{} holds runs of {}", file.name().string(),
-      other_text ? fmt::format("another job, \"{}\" (the sha256 of its text differs)", file.origin().job_name)
-                 : "this job on other recordings (their sha256 differs)");
+  problem.what =
+      fmt::format("{} holds runs of {}", file.name.string(),
+                  other_text ? fmt::format("another job, \"{}\" (the sha256 of its text differs)", file.origin.job_name)
+                             : "this job on other recordings (their sha256 differs)");
   problem.help = fmt::format(
       "--out another name, or delete {}; --allow-mixed goes on with those estimators whose numbers stay the same",
       folder);
   return Error(problem);
 }
 
-Error other_program(SegmentFile const& file) {
+Error other_program(SegmentFacts const& file) {
   Problem problem;
   problem.code = ExitCode::bad_job;
   problem.what =
-      fmt::format("{} was written by another program (sources, compiler or build differ)", file.name().string());
+      fmt::format("{} was written by another program (sources, compiler or build differ)", file.name.string());
   problem.notes = {"its runs may differ in their last digits from those of this one"};
   problem.help = fmt::format("go on with the program that began; or delete {} and begin again; or --allow-mixed",
-                             file.name().parent_path().string());
+                             file.name.parent_path().string());
   return Error(problem);
 }
 
-Error other_search(SegmentFile const& file, std::string const& label) {
-  return Error(Problem{.code = ExitCode::bad_job,
-                       .what = fmt::format("runs of {} in {} were made with other settings, or on other data", label,
-                                           file.name().string()),
-                       .notes = {"--allow-mixed takes what follows from the same numbers, and this does not"},
-                       .help = "--out another name, or delete " + file.name().parent_path().string()});
+Error other_search(std::filesystem::path const& name, std::string const& label) {
+  return Error(Problem{
+      .code = ExitCode::bad_job,
+      .what = fmt::format("runs of {} in {} were made with other settings, or on other data", label, name.string()),
+      .notes = {"--allow-mixed takes what follows from the same numbers, and this does not"},
+      .help = "--out another name, or delete " + name.parent_path().string()});
 }
 
 Error disagree(std::string const& label, std::size_t run, std::size_t generation, std::filesystem::path const& one,
@@ -99,20 +100,16 @@ void SavedRuns::read_all() {
 
 // false: a segment that was listed is gone
 bool SavedRuns::read_folder(OpenFolder const& folder) {
-  auto const look = [&](SegmentFile& file) {
-    if (accept(file, request_)) file.verify();
-  };
+  SegmentLook look(segments_in(folder), [&](SegmentFile& file) {
+    if (accept(file.facts(), request_)) file.verify();
+  });
   bool is_whole = true;
-  auto const places = segments_in(folder);
-  auto const harmless = harmless_segments(places, look);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    auto const& place = places[i];
+  for (std::size_t i = 0; i < look.places().size(); ++i) {
     try {
-      if (!harmless[i]) look_at_segment(place, look);
-      SegmentFile const file(place);
-      if (!accept(file, request_)) continue;
-      files_.push_back(place);
-      take(file, files_.size() - 1);
+      SegmentFacts const facts = look.facts(i);
+      if (!accept(facts, request_)) continue;
+      files_.push_back(look.places()[i]);
+      take(facts, files_.size() - 1);
     } catch (Error const& error) {
       // removed meanwhile, or damaged: as if it had never been there
       if (error.code() != ExitCode::bad_data && error.code() != ExitCode::no_input) throw;
@@ -124,16 +121,16 @@ bool SavedRuns::read_folder(OpenFolder const& folder) {
 }
 
 // false: nothing in it is wanted
-bool SavedRuns::accept(SegmentFile const& file, SavedRunsRequest const& request) {
-  bool const same_inputs = file.origin().inputs_sha256 == request.expected.inputs_sha256;
-  bool const same_program = file.origin().numerics_sha256 == request.expected.numerics_sha256;
+bool SavedRuns::accept(SegmentFacts const& file, SavedRunsRequest const& request) {
+  bool const same_inputs = file.origin.inputs_sha256 == request.expected.inputs_sha256;
+  bool const same_program = file.origin.numerics_sha256 == request.expected.numerics_sha256;
   if (!same_inputs && !request.allow_mixed) throw other_job(file, request.expected);
   if (!same_program && !request.allow_mixed) throw other_program(file);
   bool wanted = false;
-  for (auto const& [label, index] : file.estimators()) {
+  for (auto const& [label, index] : file.estimators) {
     auto const known = request.searches.find(label);
     if (known == request.searches.end()) continue;
-    if (known->second != index.search_sha256) throw other_search(file, label);
+    if (known->second != index.search_sha256) throw other_search(file.name, label);
     wanted = wanted || !request.wanted ||
              std::any_of(index.entries.begin(), index.entries.end(),
                          [&](auto const& entry) { return request.wanted(entry.run); });
@@ -142,9 +139,9 @@ bool SavedRuns::accept(SegmentFile const& file, SavedRunsRequest const& request)
   return wanted;
 }
 
-void SavedRuns::take(SegmentFile const& file, std::size_t index) {
-  origins_.push_back(file.origin());
-  for (auto const& [label, estimator] : file.estimators())
+void SavedRuns::take(SegmentFacts const& file, std::size_t index) {
+  origins_.push_back(file.origin);
+  for (auto const& [label, estimator] : file.estimators)
     for (std::size_t i = 0; i < estimator.entries.size(); ++i) {
       auto const& entry = estimator.entries[i];
       pieces_[label].push_back({entry.run, static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(i),
@@ -239,7 +236,7 @@ std::optional<StoredRuns> SavedRuns::load_stored_now(std::string const& label, H
     if (next.front().file != first.file || next.front().entry != first.entry + count) break;
   }
   SegmentFile& file = opened(first);
-  if (!same_lists(file.estimators().at(label).shape, shape)) throw other_search(file, label);
+  if (!same_lists(file.estimators().at(label).shape, shape)) throw other_search(file.name(), label);
   StoredRuns runs = file.read_runs(label, first.entry, count);
   if (n_shards_ > most_open_files) file.close();
   return runs;
@@ -258,7 +255,7 @@ std::optional<RunPart> SavedRuns::load_now(std::string const& label, HistoryShap
   for (Piece const& piece : pieces) {
     if (piece.first > whole.count) break;  // what lies between is lost: so is what follows
     SegmentFile& file = opened(piece);
-    if (!same_lists(file.estimators().at(label).shape, shape)) throw other_search(file, label);
+    if (!same_lists(file.estimators().at(label).shape, shape)) throw other_search(file.name(), label);
     RunPart part = file.read(label, piece.entry);
     if (n_shards_ > most_open_files) file.close();
     std::size_t const difference = first_difference(whole.history, part, shape);

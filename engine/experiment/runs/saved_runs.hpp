@@ -78,8 +78,8 @@ class SavedRuns {
   auto listing_again(Load&& load) -> decltype(load());
 
   PiecesOfRun find(std::string const& label, std::size_t run) const;
-  bool accept(SegmentFile const& file, SavedRunsRequest const& request);
-  void take(SegmentFile const& file, std::size_t index);
+  bool accept(SegmentFacts const& file, SavedRunsRequest const& request);
+  void take(SegmentFacts const& file, std::size_t index);
   std::size_t shards() const;  // that wrote the segments
   SegmentFile& opened(Piece const& piece);
 

@@ -4,8 +4,7 @@
 // Use        write_segment() once; SegmentFile reads it back, its index first, histories when they are asked for: those
 //            of several runs at once, for runs are mostly asked for in the order in which they were written
 // Trust      the index is believed after its own checksums; histories only after verify(), which reads everything
-// Harm       checksums do not keep out who computes them, and HDF5 crashes on some such files: look_at_segment() opens
-//            one in a child first, and what did no harm there is read here
+// Harm       HDF5 crashes on some files of people who mean it: segment_look.hpp reads one in another process first
 // Errors     writing: those of ResultWriter (74); reading: those of ResultReader (65 for whatever is damaged or not
 //            ours)
 // Threads    as HDF5: one of the process at a time
@@ -13,7 +12,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,6 +20,7 @@
 #include <vector>
 
 #include "engine/experiment/runs/run_part.hpp"
+#include "engine/experiment/runs/segment_facts.hpp"
 #include "engine/store/file_place.hpp"
 #include "engine/store/result_reader.hpp"
 #include "engine/store/rows_ahead.hpp"
@@ -29,25 +28,12 @@
 
 namespace torquescope {
 
-// who wrote it, for which job
-struct SegmentOrigin {
-  std::string job_sha256, inputs_sha256, numerics_sha256;
-  std::string job_name;
-  std::size_t shard_index = 0, shard_count = 1;
-  std::string host;
-  std::int64_t pid = 0, threads = 0;
-  std::string started, written;  // ISO 8601 UTC
-};
-
 struct EstimatorParts {
   std::string label;
   std::string search_sha256;  // of all that its numbers follow from, but the program: settings and training data
   HistoryShape shape;
   std::vector<RunPart> parts;
 };
-
-// where an estimator is in a segment
-inline std::string segment_group(std::string const& label) { return "/parts/" + label + "/"; }
 
 void write_segment(FilePlace const& place, SegmentOrigin const& origin, std::vector<EstimatorParts> const& estimators);
 
@@ -69,29 +55,13 @@ struct StoredRuns {
 
 class SegmentFile {
  public:
-  // of one part, without its numbers
-  struct Entry {
-    std::size_t run, first, count;
-    bool ended;
-    std::size_t row;                          // where its generations begin in the lists
-    std::size_t state_first, state_end;       // entries of its optimiser's state
-    std::size_t state_number, state_numbers;  // where their numbers begin, and how many they are
-    std::string stop_reason;
-  };
-  struct Index {
-    std::string search_sha256;
-    HistoryShape shape;
-    std::vector<Entry> entries;
-  };
-
   // ahead: bytes of it, about, that are read and kept at once
   static constexpr std::size_t most_ahead = std::size_t{2} << 20;
   explicit SegmentFile(FilePlace const& place, std::size_t ahead = most_ahead);
 
   std::filesystem::path const& name() const { return place_.path; }
-  SegmentOrigin const& origin() const { return origin_; }
-  std::map<std::string, Index> const& estimators() const { return estimators_; }  // by label
-  std::uint64_t bytes() const { return bytes_; }
+  SegmentFacts const& facts() const { return facts_; }
+  std::map<std::string, SegmentIndex> const& estimators() const { return facts_.estimators; }  // by label
   void verify() { static_cast<void>(reader().verify()); }
   RunPart read(std::string const& label, std::size_t entry);
   // of entries that are whole runs, each with every generation of the job
@@ -112,28 +82,16 @@ class SegmentFile {
   };
 
   ResultReader const& reader();
-  void read_index(std::string const& label);
   Lists& lists(std::string const& label);
   template <class Value>
   std::span<Value const> rows(RowsAhead<Value>& list, std::size_t first, std::size_t count, std::size_t width);
-  OptimiserState read_state(Lists& lists, Entry const& entry);
+  OptimiserState read_state(Lists& lists, SegmentEntry const& entry);
 
   FilePlace place_;
   std::optional<ResultReader> reader_;
-  std::uint64_t bytes_;
   std::size_t ahead_;
-  SegmentOrigin origin_;
-  std::map<std::string, Index> estimators_;
+  SegmentFacts facts_;
   std::optional<Lists> lists_;  // of the estimator that was asked for last
 };
-
-// opens a segment in a process of its own, for `look` to read what will be read of it. Errors: those of both; 65 when
-// HDF5 crashes, loops or takes too much memory
-void look_at_segment(FilePlace const& place, std::function<void(SegmentFile&)> const& look);
-
-// The same for many, in one process: a process costs as much as a small segment. Whether each was read without
-// complaint; what was not is to be looked at by itself, which says why
-std::vector<bool> harmless_segments(std::vector<FilePlace> const& places,
-                                    std::function<void(SegmentFile&)> const& look);
 
 }  // namespace torquescope

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "engine/experiment/runs/segment_file.hpp"
 #include "engine/store/result_writer.hpp"
 
 namespace torquescope {
 namespace {
+
+RunHistory const& history_of(RunPart const& part) { return part.whole ? *part.whole : part.history; }
+// where the part's generations begin in it
+std::size_t begin_of(RunPart const& part) { return part.whole ? part.first : 0; }
 
 // the part that holds row `row` of the lists, and how far into it
 struct Place {
@@ -31,9 +36,9 @@ void write_list(ResultWriter& writer, std::string const& group, HistoryList cons
                            [&](std::size_t first, std::span<double> values) {
                              for (std::size_t i = 0; i * width < values.size(); ++i) {
                                auto const [part, generation] = places[first + i];
-                               auto const& from = estimator.parts[part].history.*list.values;
-                               std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(generation * width), width,
-                                           values.begin() + static_cast<std::ptrdiff_t>(i * width));
+                               RunPart const& of = estimator.parts[part];
+                               double const* const from = (history_of(of).*list.values).data();
+                               std::copy_n(from + (begin_of(of) + generation) * width, width, &values[i * width]);
                              }
                            },
                            {"1", list.name});
@@ -76,17 +81,19 @@ void write_estimator(ResultWriter& writer, EstimatorParts const& estimator) {
   std::vector<double> elapsed_s, parameters;
   std::vector<std::string> stop_reason;
   for (auto const& part : estimator.parts) {
+    RunHistory const& history = history_of(part);
     run.push_back(static_cast<std::int64_t>(part.run));
     first.push_back(static_cast<std::int64_t>(part.first));
     count.push_back(static_cast<std::int64_t>(part.count));
     ended.push_back(part.ended ? 1 : 0);
-    nonfinite.push_back(part.history.nonfinite);
-    elapsed_s.push_back(part.history.elapsed_s);
-    stop_reason.push_back(part.history.stop_reason);
-    auto best = part.history.parameters;
+    nonfinite.push_back(history.nonfinite);
+    elapsed_s.push_back(history.elapsed_s);
+    stop_reason.push_back(history.stop_reason);
+    auto best = history.parameters;
     best.resize(shape.parameters, std::numeric_limits<double>::quiet_NaN());
     parameters.insert(parameters.end(), best.begin(), best.end());
-    evaluations.insert(evaluations.end(), part.history.evaluations.begin(), part.history.evaluations.end());
+    auto const of_part = std::span(history.evaluations).subspan(begin_of(part), part.count);
+    evaluations.insert(evaluations.end(), of_part.begin(), of_part.end());
   }
   write_whole(writer, group + "run", run);
   write_whole(writer, group + "first", first);
@@ -107,7 +114,7 @@ std::uintmax_t bytes_of(std::vector<EstimatorParts> const& estimators) {
   std::uintmax_t numbers = 0;
   for (auto const& estimator : estimators)
     for (auto const& part : estimator.parts)
-      for (auto const& list : history_lists) numbers += (part.history.*list.values).size();
+      for (auto const& list : history_lists) numbers += part.count * list.width(estimator.shape);
   return numbers * sizeof(double);
 }
 

@@ -80,6 +80,16 @@ TEST_F(RowsAheadOf, AnyOrderAndAnyCountGiveTheRowsOfTheFile) {
   }
 }
 
+TEST_F(RowsAheadOf, WhatSomebodyOwnsStaysWhateverIsAskedForLater) {
+  RowsAhead<double> ahead("/numbers", layout("/numbers"), 10 * width * sizeof(double));
+  auto const open_it = [&]() -> ResultReader const& { return open(); };
+  auto const owned = ahead.rows(open_it, 3, 5);
+  auto const owner = ahead.owner();
+  for (std::size_t row = 5; row < n_rows; row += 7) expect(ahead, numbers_, row, 1);
+  auto const expected = std::span(numbers_).subspan(3 * width, 5 * width);
+  EXPECT_TRUE(std::equal(owned.begin(), owned.end(), expected.begin(), expected.end()));
+}
+
 TEST_F(RowsAheadOf, RowsBehindTheEndAreAnError) {
   RowsAhead<double> ahead("/numbers", layout("/numbers"), 1000);
   expect(ahead, numbers_, 90, 10);
