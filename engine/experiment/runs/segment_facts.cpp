@@ -162,7 +162,9 @@ SegmentFacts unpacked_facts(std::filesystem::path const& name, std::string_view 
       for (auto* const into : {&e.row, &e.state_first, &e.state_end, &e.state_number, &e.state_numbers})
         *into = whole();
       e.stop_reason = in.text();
-      if (e.run >= shape.runs || e.first > shape.generations || e.count > shape.generations + 1 - e.first)
+      // a run that ends where it was kept last leaves a part of no generation
+      std::size_t const all = shape.generations + 1;
+      if (e.run >= shape.runs || e.first > all || e.count > all - e.first)
         throw contradicts_itself(name, segment_group(label) + "run");
       index.entries.push_back(std::move(e));
     }

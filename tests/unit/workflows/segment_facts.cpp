@@ -128,6 +128,19 @@ TEST_F(SegmentsLookedAt, OneThatIsDamagedSaysSo) {
   expect_facts(look.facts(2), 2);
 }
 
+TEST_F(SegmentsLookedAt, ARunThatEndsWhereItWasKeptLastIsOneOfThem) {
+  auto parts = parts_of(0);
+  parts[0].parts.push_back({.run = 2, .first = 4, .count = 0, .ended = true, .history = history_of(0, 1.5)});
+  write_segment(folder_ / "ended.h5", origin_of(0), parts);
+  SegmentLook look({folder_ / "ended.h5"}, [](SegmentFile&) {});
+  auto const found = look.facts(0);
+  auto const& entries = found.estimators.at("de").entries;
+  ASSERT_EQ(entries.size(), 3u);
+  EXPECT_EQ(entries[2].first, 4u);
+  EXPECT_EQ(entries[2].count, 0u);
+  EXPECT_TRUE(entries[2].ended);
+}
+
 // a hostile file may have changed what the other process says
 TEST_F(SegmentsLookedAt, BytesThatAreNoFactsAreRefused) {
   auto const facts = SegmentFile(places_[0]).facts();
