@@ -17,11 +17,11 @@ KeptModel judged(StepwiseSearch const& search, SearchState const& state, OtherRe
   auto const& deciding = held_out.acting.blocks > 0 ? held_out.acting : held_out.gain;
   if (deciding.before > 0.0) kept.fall = 1.0 - std::sqrt(deciding.after / deciding.before);
   if (held_out.acting.blocks > 0) {
-    kept.is_held_out_lower =
-        held_out.acting.change == HeldOutChange::lower && held_out.gain.is_not_worse() && state.adequacy.holds();
+    kept.is_held_out_lower = held_out.acting.change == HeldOutChange::lower && held_out.gain.is_not_worse() &&
+                             state.adequacy.holds() && !held_out.left_out.is_raised();
     return kept;
   }
-  kept.is_held_out_lower = held_out.gain.change == HeldOutChange::lower;
+  kept.is_held_out_lower = held_out.gain.change == HeldOutChange::lower && !held_out.left_out.is_raised();
   kept.explains_most = held_out.gain.after < most_of_it * held_out.gain.before;
   return kept;
 }

@@ -3,6 +3,7 @@
 //
 // Better     the held-out error falls clearly (paired test): where the laws act, or all over the recording for a model
 //            that is not adequate; such a model must explain more of the mismatch than it leaves
+// All rows   the error of validation recordings over all samples, reversals and rests too, does not rise
 // Shorter    where the part without the last step stands too, that step must lower the error clearly once more, unless
 //            its law belongs to a clock
 // Bound      laws that all belong to an instant or a clock predict little elsewhere: their error falls where they act,

@@ -18,6 +18,7 @@ struct LeftOutRows {
   double torque = 0.0, after = 0.0;            // energies over all rows; after: of the residual with the names
 
   double time_share() const { return rows > 0.0 ? rows_left_out / rows : 0.0; }
+  bool is_raised() const { return after > energy; }  // over all rows, by the names
   double energy_share() const { return energy > 0.0 ? energy_left_out / energy : 0.0; }
   LeftOutRows& operator+=(LeftOutRows const& other);
 };

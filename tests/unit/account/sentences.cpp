@@ -73,6 +73,16 @@ TEST(ReasonSentence, OfRefutedNamesWithoutUnseenDataTellsBlocks) {
             "backlash, which would explain it, takes the cross-validated error from 2.7 % to 2.7 %");
 }
 
+TEST(ReasonSentence, OfNamesThatRaiseTheErrorOfAllSamplesTellsThatError) {
+  JointDiagnosis refuted = example::invented_unexplained().joints[0];
+  refuted.effects = {effect_of(*find_effect("maxwell_slip"), 0.2)};
+  refuted.validation_relerr = 0.0038;
+  refuted.augmented_validation_relerr = 0.0036;
+  refuted.validation_left_out = {0.62, 0.99, 0.021, 0.024, 10.0};
+  EXPECT_EQ(refutation_clause(refuted, false),
+            "maxwell slip, which would explain it, takes the validation error of all samples from 2.1 % to 2.4 %");
+}
+
 TEST(ReasonSentence, TellsTwoEffectsAndNamesTheOthers) {
   Diagnosis diagnosis = example::invented_diagnosis();
   EXPECT_THAT(reason_sentence(diagnosis),
