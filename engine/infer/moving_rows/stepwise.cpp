@@ -208,12 +208,6 @@ class Search {
     return false;
   }
 
-  // Gains are of held-out rows, which a model predicts badly that lacks an event in the fold; energies are of the fit
-  static double energy_a_held_out_one(Evidence const& evidence, FoldKind kind) {
-    double const held_out = evidence.left_in_folds(kind).col(0).head(n_folds).sum();
-    return std::min(1.0, energy_about_true_mean(evidence.stage()) / held_out);
-  }
-
   bool take(RefinedCandidate const& candidate, CatalogueEvidence const& catalogue) {
     auto const* effect = candidate.evidence.scan.effect;
     SearchState const& state = result_.end();
@@ -224,8 +218,7 @@ class Search {
     CandidateEvidence const& found = candidate.evidence;
     double const by_chance = found.first_mean + catalogue.chance * found.first_spread;
     // it may be beyond chance by the rows of other recordings alone
-    double const least_gain = found.first > by_chance ? by_chance : found.first_mean;
-    double const least_taken = least_gain * energy_a_held_out_one(evidence, found.folds);
+    double const least_taken = found.first > by_chance ? by_chance : found.first_mean;
     auto draft = simulated(setting(), evidence, candidate, least_taken);
     if (!draft) return refuse(effect, "replicates with it do not follow the reference");
     if (energy_about_true_mean(*before) - energy_about_true_mean(*draft) < least_taken)
