@@ -207,7 +207,7 @@ VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joi
   bool const is_of_arm = diagnosis.joints.size() > 1;
   if (!is_of_arm && !diagnosis.way_out.empty()) lines.remarks.push_back(diagnosis.way_out);
   std::string const of_validation =
-      joint.nuisances.empty() ? "" : fmt::format("of validation itself: {}", fmt::join(joint.nuisances, "; "));
+      joint.nuisances.empty() ? "" : fmt::format("in validation: {}", fmt::join(joint.nuisances, "; "));
   for (auto const& sentence : {of_validation, joint.timing_sentence, unseen_is_other_sentence(joint)})
     if (!sentence.empty()) lines.remarks.push_back(sentence);
   return lines;

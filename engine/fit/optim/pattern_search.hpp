@@ -16,7 +16,7 @@ struct LowestPoint {
   double cost = 0.0;
 };
 
-// start: with its cost; steps: one each; most_evaluations: of cost
+// start: with its cost; steps: one each; most_evaluations: of cost, looked at after each round of two an axis
 LowestPoint pattern_search(LowestPoint start, std::vector<double> steps, int most_evaluations,
                            std::function<double(std::vector<double> const&)> const& cost);
 

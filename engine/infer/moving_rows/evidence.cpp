@@ -106,16 +106,19 @@ void Evidence::add_unseen(UnseenEvidence one) {
   unseen_.push_back(std::move(unseen));
 }
 
-Evidence Evidence::with_own_events(std::span<Effect const* const> laws) const {
-  Evidence result = *this;
+Evidence Evidence::with_own_events(std::span<Effect const* const> laws) && {
   for (auto const* event : laws) {
     if (carry_over(*event) != CarryOver::none) continue;
-    std::vector<Unseen> own;
+    std::vector<Eigen::MatrixXd> columns;
     for (Unseen const& one : unseen_)
-      own.push_back(less(one, own_event_columns(one.evidence, *event, one.left().col(0), seed_)));
-    result.own_events_[event] = std::move(own);
+      columns.push_back(own_event_columns(one.evidence, *event, one.left().col(0), seed_));
+    // every signal of every recording again: only where there is an event
+    if (std::all_of(columns.begin(), columns.end(), [](auto const& of) { return of.cols() == 0; })) continue;
+    std::vector<Unseen> own;
+    for (std::size_t i = 0; i < unseen_.size(); ++i) own.push_back(less(unseen_[i], columns[i]));
+    own_events_[event] = std::move(own);
   }
-  return result;
+  return std::move(*this);
 }
 
 std::vector<Evidence::Unseen> const& Evidence::unseen_beside(Effect const& effect) const {

@@ -41,7 +41,7 @@ class Evidence {
   // the same replicates where effect `without` of the model is a candidate again, not a part of it
   Evidence(Evidence const& of, std::size_t without);
   // the same, where each event of these (CarryOver::none) also happens in unseen recordings, at an instant of its own
-  Evidence with_own_events(std::span<Effect const* const> laws) const;
+  Evidence with_own_events(std::span<Effect const* const> laws) &&;
 
   ModelStage const& stage() const { return *stage_; }
   // of the recording that the stage was made of

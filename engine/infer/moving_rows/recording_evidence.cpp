@@ -249,9 +249,11 @@ UnseenResidual unseen_residual(StageSetting const& setting, ModelStage const& st
 
 Eigen::MatrixXd own_event_columns(UnseenEvidence const& of, Effect const& event, Eigen::VectorXd const& left,
                                   std::uint64_t seed) {
-  EventQuestion question{&event, scales_during(of.columns->scales(), of.comparison->recording.motion->time_s),
-                         of.memory_rows};
-  question.seed = seed;
+  EventQuestion const question{
+      .effect = &event,
+      .scales = scales_during(of.columns->scales(), of.comparison->recording.motion->time_s),
+      .memory_rows = of.memory_rows,
+      .seed = seed};
   auto const columns_at = [&](std::vector<std::vector<double>> const& shapes) {
     auto each = of.columns->columns_of_each(event, shapes);
     for (auto& columns : each) columns = of.without_own(std::move(columns));

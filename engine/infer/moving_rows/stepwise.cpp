@@ -114,8 +114,8 @@ class Search {
     if (state.selection.accepted.size() >= options_.max_effects || result_.states.size() > 2 * options_.max_effects + 1)
       return false;
     tell("search", 0, laws.size());
-    if (kind == FoldKind::interleaved)
-      state.evidence = std::make_shared<Evidence const>(state.evidence->with_own_events(laws));
+    if (kind == FoldKind::interleaved && state.evidence->n_unseen() > 0)
+      state.evidence = std::make_shared<Evidence const>(Evidence(*state.evidence).with_own_events(laws));
     Evidence const& evidence = *state.evidence;
     CatalogueEvidence const catalogue = scan_catalogue(evidence, laws, kind, levels_.alpha, setting().threads);
     note_first(state.selection, catalogue);

@@ -22,7 +22,7 @@ struct EventQuestion {
   Effect const* effect = nullptr;
   JointScales scales{};  // of the recording: its time and duration
   Eigen::Index memory_rows = 1;
-  double alpha = 0.01;  // nominal: a null without the event makes chance look rarer, up to five times
+  double alpha = 0.01;  // convention: a null without the event makes chance look rarer, up to five times
   std::uint64_t seed = 0;
 };
 

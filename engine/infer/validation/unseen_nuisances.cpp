@@ -129,6 +129,7 @@ ModelElsewhere with_own_events(ModelStage const& stage, RecordPipeline const& pi
   auto const is_asked = [](ShapedEffect const& one) { return carry_over(*one.effect) == CarryOver::none; };
   if (std::none_of(effects.begin(), effects.end(), is_asked)) return there;
   Eigen::VectorXd left = record.torque - record.columns * there.parameters;
+  // the recording's own offset: means say nothing, of the residual as of the columns
   bool const has_own_offset = moves_both_ways(pipeline.picked(record.motion->dq, record));
   if (has_own_offset) left.array() -= left.mean();
   FittedBaseline const baseline = on_motion(stage.model().regressor(), stage.model().reference(), record.motion);
@@ -146,9 +147,11 @@ ModelElsewhere with_own_events(ModelStage const& stage, RecordPipeline const& pi
       }
       return each;
     };
-    EventQuestion question{&effect, scales_during(stage.model().reference().scales, record.motion->time_s),
-                           guard_rows(pipeline)};
-    question.seed = seed;
+    EventQuestion const question{
+        .effect = &effect,
+        .scales = scales_during(stage.model().reference().scales, record.motion->time_s),
+        .memory_rows = guard_rows(pipeline),
+        .seed = seed};
     auto const own = own_event(question, columns_at, left);
     if (!own) {
       nuisances.push_back(effect.name() + why_left_out(effect));

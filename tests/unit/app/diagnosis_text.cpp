@@ -40,7 +40,7 @@ TEST(DiagnosisText, IsThePictureOfTheSpecification) {
                   p < 0.005
     error on rows in motion: training 11.8 % -> 6.1 %, validation 12.1 % ->
     6.2 %, noise 6.0 %
-    of validation itself: offset; phase of cogging
+    in validation: offset; phase of cogging
 next   triangular strokes of 0.2, 1 and 5 mrad: would tell stribeck and
        presliding apart
 )");

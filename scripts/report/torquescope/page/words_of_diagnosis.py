@@ -192,7 +192,7 @@ def fit_answer(study, joint):
         given = "was not judged" if study.validate is not None else "was not given"
         return f"A validation recording {given}: whether the model holds on another motion, this file cannot say."
     nuisances = q.listed(joint.nuisances)
-    refitted = f" Of the validation recording itself: {nuisances}." if joint.nuisances else ""
+    refitted = f" In the validation recording: {nuisances}." if joint.nuisances else ""
     if not diagnosed.has_after(joint):
         at = _floor_words(joint.validation_relerr, joint.floor_relerr)
         error = q.percent(joint.validation_relerr)
