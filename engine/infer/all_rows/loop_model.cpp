@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/fit/statistics/chi_squared.hpp"
 #include "engine/simulate/rollout/drive_law.hpp"
 #include "engine/simulate/rollout/fit_slope.hpp"
 
@@ -167,10 +168,10 @@ std::vector<LoopNumber> numbers_of(LoopQuestion const& question, LoopFit const& 
 
 namespace {
 
-// whether a number at an end of its range does: the rest of a spring that does not harden is at no bound
-bool changes_anything(LoopQuestion const& question, RolloutModel const& model, Eigen::VectorXd const& at,
-                      std::size_t number) {
-  constexpr double no_change = 1e-6;  // of the squares (law_shape.cpp)
+// Whether a number at an end of its range does, beyond chance: the rest of a spring that hardly hardens is at no bound.
+// D of one number is chi-squared (Wilks 1938, doi:10.1214/aoms/1177732360)
+bool changes_anything(LoopQuestion const& question, RolloutModel const& model, LoopFit const& fit, std::size_t number) {
+  Eigen::VectorXd const& at = fit.fit.parameters;
   auto const& range = model.parameters()[number];
   Eigen::VectorXd inside = at;
   inside[static_cast<Index>(number)] = 0.5 * (range.lower + range.upper);
@@ -178,10 +179,10 @@ bool changes_anything(LoopQuestion const& question, RolloutModel const& model, E
   for (auto const& track : question.training) task.structures.push_back(model.structure_for(at, track.tick_s()));
   std::vector<RolloutTrial> const trials{model.trial(at), model.trial(inside)};
   auto const sums = sums_of_squares(task, trials, 1);
+  double gain = 0.0;
   for (std::size_t channel = 0; channel < n_channels; ++channel)
-    if (question.counts[channel] && !(std::abs(sums[1][channel] - sums[0][channel]) <= no_change * sums[0][channel]))
-      return true;
-  return false;
+    if (question.counts[channel]) gain += fit.fit.effective[channel] * std::log(sums[1][channel] / sums[0][channel]);
+  return !(chi_squared_tail(std::abs(gain), 1) > question.numbers.alpha);
 }
 
 }  // namespace
@@ -201,7 +202,7 @@ bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t m
       low = low && !is_zero && !parameter.law_at_lower && !parameter.none_at_lower;
       high = high && !parameter.law_at_upper;
     }
-    if ((low || high) && changes_anything(question, model, fit.fit.parameters, places[k])) return true;
+    if ((low || high) && changes_anything(question, model, fit, places[k])) return true;
   }
   return false;
 }
