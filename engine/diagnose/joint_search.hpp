@@ -1,9 +1,7 @@
 #pragma once
-// The search at one joint: on the rows between reversals, and where these tell too little, on those that they hide.
+// The search at one joint: on the rows between reversals, and where these are too few, on all rows in motion.
 //
-// Weighed    rows at reversals count by their noise (reversal_rows.hpp): from the beginning where the rows between
-//            reversals are too few to search, and once more where these left nothing to explain. What comes of that
-//            counts where it has names, or where the rows between reversals could not have shown much
+// Weighed    rows at reversals count by their noise (reversal_rows.hpp), where the rows between reversals are too few
 // Errors     Error 78 as search_stepwise; a motion that cannot carry a search is told in the answer
 // Threads    free function
 // Source     METHOD.md, Reversal mask

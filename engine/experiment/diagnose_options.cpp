@@ -78,8 +78,7 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
         "what searches the shapes of an effect, its linear parameters solved inside (torquescope list optimisers)"},
        {"reversals", &DiagnoseOptions::reversals, reversal_words(),
         "rows near reversals: left out, or weighed by what replicates of unknown sticking friction show there; both: "
-        "weighed "
-        "where nothing is missing without them"},
+        "weighed where too few rows are left without them"},
        {"decider", &DiagnoseOptions::decider, decider_words(),
         "rows that a verdict is decided on: those that move one way, or all; both: the first decides, and the result "
         "holds what the other says; auto: all rows of one joint where those that move one way explain nothing and "

@@ -39,7 +39,6 @@ class Search {
 
   StepwiseSearch run() && {
     begin();
-    if (options_.only_a_mismatch && result_.end().adequacy.holds()) return std::move(result_);
     while (!is_enough() && step(laws_of(options_.candidates, false), FoldKind::whole)) {
     }
     if (!is_enough() && leaves_most()) try_from_the_baseline();

@@ -4,8 +4,7 @@
 // mask       reversal_mask.hpp
 // weigh      each row counts by what replicates with drawn sticking laws show there; rests alone are left out
 //            (replicates/reversal_weights.hpp)
-// both       mask; where nothing is missing beside it, weigh: what is named there counts, and what nothing explains
-//            where the other rows hide much. weigh from the beginning where the mask leaves too few rows
+// both       mask; weigh where it leaves too few rows to search
 // Threads    free functions
 
 #include <string>

@@ -23,7 +23,6 @@ struct SelectionOptions {
   double q = 0.05;
   std::size_t max_effects = 5;
   std::string shape_optimiser = "de";
-  bool only_a_mismatch = false;  // nothing is asked of a model that is adequate as it is
 };
 
 struct AcceptedEffect {
