@@ -161,8 +161,9 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
         stored_ones.all() ? history : std::make_shared<RunHistory const>(thinned(*history, shape, stored_ones));
     write_history(study.writer, plan.label, run, kept);
     last_generations.push_back(static_cast<std::int64_t>(history->told) - 1);
-    keep(history->parameters, history->gap.back(), history->stop_reason, history->evaluations.back(),
-         history->nonfinite);
+    // behind the end of a run that stopped early stands padding
+    double const last_gap = history->told > 0 ? history->gap[history->told - 1] : history->gap.back();
+    keep(history->parameters, last_gap, history->stop_reason, history->evaluations.back(), history->nonfinite);
     if (stored_ones.all()) last_states.add(history->last_state);
     if (!plan.controller) return;
     PC.insert(PC.end(), kept->PC.begin(), kept->PC.end());
