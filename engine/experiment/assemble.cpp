@@ -125,6 +125,7 @@ JobPlan read_job_text(Experiment::Parts& parts, Experiment::Purpose purpose) {
   if (parts.experiment.name.empty()) parts.experiment.name = job.path.stem().string();
   check_name(job, parts.experiment.name, problems);
   parts.output = read_options<OutputOptions>(job, problems);
+  check_history(job, parts.output, problems);
   parts.filter = read_options<FilterOptions>(job, problems);
   JobPlan plan;
   plan.recording = read_options<RecordingOptions>(job, problems);

@@ -15,6 +15,7 @@
 #include "engine/experiment/arm_wrench.hpp"
 #include "engine/experiment/diagnosis_estimate.hpp"
 #include "engine/experiment/experiment_parts.hpp"
+#include "engine/experiment/job/stored_generations.hpp"
 #include "engine/experiment/search_box.hpp"
 #include "kernels/dispatch.hpp"
 
@@ -330,10 +331,12 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   for (auto const& plan : parts_->estimators) {
     if (plan.is_closed_form()) continue;
     auto const members = static_cast<double>(plan.make_optimiser(parts_->box, {})->largest_batch());
-    double const generations = static_cast<double>(plan.stop_rules.generations) + 1.0;
+    auto const stored_generations =
+        StoredGenerations::of(parts_->output.history, static_cast<std::size_t>(plan.stop_rules.generations)).value();
     evaluations += static_cast<double>(evaluations_of(*parts_, plan));
     double const stored = parts_->output.populations ? members * (parameters + 1.0) : 0.0;
-    bytes += static_cast<double>(parts_->experiment.runs) * generations * (stored + 7.0) * 8.0;
+    bytes += static_cast<double>(parts_->experiment.runs) * static_cast<double>(stored_generations.count()) *
+             (stored + 7.0) * 8.0;
   }
   lines.push_back({Level::ok, "plan",
                    fmt::format("{}, {:.0f} evaluations at most, {:.3g} MB of history, {}",

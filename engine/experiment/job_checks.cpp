@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/data/health/finding_text.hpp"
+#include "engine/experiment/job/stored_generations.hpp"
 #include "engine/experiment/job_sections.hpp"
 
 namespace torquescope {
@@ -39,6 +40,14 @@ void check_name(Job const& job, std::string const& name, std::vector<Problem>& p
   if (section != nullptr)
     problems.push_back(problem_at(*section, "name", "the name of an experiment has no \"/\" and no control characters",
                                   "a path belongs into --out, or [output] file"));
+}
+
+void check_history(Job const& job, OutputOptions const& output, std::vector<Problem>& problems) {
+  if (StoredGenerations::of(output.history, 0)) return;
+  problems.push_back(problem_at(*job.find("output"), "history",
+                                fmt::format("history = \"{}\" names no generations", output.history),
+                                "write \"full\" (every generation), \"every 10\" (any whole number from 1 on) or "
+                                "\"last\""));
 }
 
 void check_sources(Job const& job, RecordingOptions const& recording, Experiment::Purpose purpose,

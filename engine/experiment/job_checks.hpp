@@ -17,6 +17,9 @@ void check_work(Job const& job, Experiment::Purpose purpose, std::vector<Problem
 // a name becomes that of a file
 void check_name(Job const& job, std::string const& name, std::vector<Problem>& problems);
 
+// [output] history
+void check_history(Job const& job, OutputOptions const& output, std::vector<Problem>& problems);
+
 // where its data come from: exactly one of files, a set of them, or a simulation
 void check_sources(Job const& job, RecordingOptions const& recording, Experiment::Purpose purpose,
                    std::vector<Problem>& problems);

@@ -1,6 +1,7 @@
 #include "engine/store/file_digest.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -9,7 +10,7 @@ namespace {
 
 // whole chunks, so that each is read once
 std::size_t rows_at_once(h5::DatasetInfo const& info) {
-  constexpr std::size_t bytes_at_once = std::size_t{4} << 20;
+  constexpr std::size_t bytes_at_once = std::size_t{1} << 20;
   std::size_t const rows = std::max<std::size_t>(1, bytes_at_once / bytes_of_row(info.shape));
   std::size_t const chunk_rows = info.chunk.empty() ? 1 : info.chunk.front();
   return rows < chunk_rows ? rows : rows / chunk_rows * chunk_rows;
@@ -78,14 +79,23 @@ class FileWalk {
 
   void add_numbers(h5::Handle const& dataset, h5::DatasetInfo const& info, std::string const& path) {
     std::size_t const step = rows_at_once(info);
-    std::vector<double> buffer(std::min(step, info.rows()) * info.values_per_row());  // int64 are as large
+    double* const values = room(std::min(step, info.rows()) * info.values_per_row());  // int64 are as large
     ArrayDigest digest(digest_, path, info.element, info.shape);
     for (std::size_t first = 0; first < info.rows(); first += step) {
       std::size_t const count = std::min(step, info.rows() - first);
-      h5::read_rows(dataset, info, first, count, buffer.data());
-      digest.add(std::as_bytes(std::span(buffer).first(count * info.values_per_row())));
+      h5::read_rows(dataset, info, first, count, values, h5::spare_for_checksum);
+      digest.add(std::as_bytes(std::span(values, count * info.values_per_row())));
     }
     digest.end();
+  }
+
+  // for so many values and a spare one; the same again, for new memory costs its first write as much as the digest
+  double* room(std::size_t values) {
+    if (values > room_values_ || !room_) {
+      room_ = std::make_unique_for_overwrite<double[]>(values + 1);
+      room_values_ = values;
+    }
+    return room_.get();
   }
 
   h5::Handle const& file_;
@@ -93,6 +103,8 @@ class FileWalk {
   ContentDigest digest_{};
   ReadFacts facts_{};
   std::set<std::uint64_t> seen_{};  // addresses
+  std::unique_ptr<double[]> room_{};
+  std::size_t room_values_ = 0;
 };
 
 }  // namespace

@@ -115,12 +115,15 @@ void write_chunk(Handle const& dataset, Shape const& first, std::span<std::byte 
 // bytes)
 void write_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count,
                 void const* values);
-void read_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count, void* values);
+// so many bytes behind `values` may be changed as well: with eight of them no chunk is copied (h5_chunk.cpp)
+inline constexpr std::size_t spare_for_checksum = 8;
+void read_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count, void* values,
+               std::size_t spare_bytes = 0);
 // h5_chunk.cpp: for read_rows(). The same from chunks of whole rows to which nothing was done but a checksum: HDF5
 // copies such a chunk twice, and its checksum takes five times as long. `memory` is the type of `values`. False where
 // the dataset is stored otherwise or a chunk is damaged: then HDF5 reads it, and says what is wrong
 bool read_plain_chunks(Handle const& dataset, Handle const& memory, DatasetInfo const& info, std::size_t first,
-                       std::size_t count, void* values);
+                       std::size_t count, void* values, std::size_t spare_bytes);
 std::vector<std::string> read_texts(Handle const& dataset, DatasetInfo const& info, std::size_t first,
                                     std::size_t count);
 

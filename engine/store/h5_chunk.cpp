@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 
 #include "engine/base/contract.hpp"
 #include "engine/store/fletcher32.hpp"
@@ -43,7 +44,7 @@ bool read_chunk(Handle const& dataset, std::vector<hsize_t> const& start, std::s
 }  // namespace
 
 bool read_plain_chunks(Handle const& dataset, Handle const& memory, DatasetInfo const& info, std::size_t first,
-                       std::size_t count, void* values) {
+                       std::size_t count, void* values, std::size_t spare_bytes) {
   TORQUESCOPE_EXPECT(first + count <= info.rows());
   if (!is_plain(dataset, memory, info)) return false;
   std::size_t const value_bytes = info.element == Element::text ? info.text_size : sizeof(double);
@@ -51,16 +52,17 @@ bool read_plain_chunks(Handle const& dataset, Handle const& memory, DatasetInfo 
   std::size_t const chunk_bytes = rows * row_bytes, end = first + count;
   auto* const to = static_cast<std::byte*>(values);
   std::vector<hsize_t> start(info.shape.size(), 0);
-  std::vector<std::byte> apart;  // of a chunk that does not fit where its rows belong
+  std::unique_ptr<std::byte[]> apart;  // of a chunk that does not fit where its rows belong
   for (std::size_t row = first; row < end;) {
     std::size_t const begin = row / rows * rows, next = std::min(begin + rows, end);
     start[0] = begin;
     // its checksum lies where the next chunk's rows come
-    bool const fits = row == begin && begin + rows < end && (end - begin - rows) * row_bytes >= sizeof(FileChecksum);
-    if (!fits) apart.resize(chunk_bytes + sizeof(FileChecksum));
+    bool const fits =
+        row == begin && begin + rows <= end && (end - begin - rows) * row_bytes + spare_bytes >= sizeof(FileChecksum);
+    if (!fits && !apart) apart = std::make_unique_for_overwrite<std::byte[]>(chunk_bytes + sizeof(FileChecksum));
     std::byte* const place = to + (row - first) * row_bytes;
-    if (!read_chunk(dataset, start, chunk_bytes, fits ? place : apart.data())) return false;
-    if (!fits) std::memcpy(place, apart.data() + (row - begin) * row_bytes, (next - row) * row_bytes);
+    if (!read_chunk(dataset, start, chunk_bytes, fits ? place : apart.get())) return false;
+    if (!fits) std::memcpy(place, apart.get() + (row - begin) * row_bytes, (next - row) * row_bytes);
     row = next;
   }
   return true;

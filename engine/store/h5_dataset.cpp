@@ -175,10 +175,11 @@ void write_rows(Handle const& dataset, DatasetInfo const& info, std::size_t firs
   checked(H5Dwrite(dataset.id(), type.id(), rows.memory.id(), rows.file.id(), H5P_DEFAULT, values), "write values");
 }
 
-void read_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count, void* values) {
+void read_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count, void* values,
+               std::size_t spare_bytes) {
   if (is_empty(info.shape) || count == 0) return;
   Handle const type = memory_type(info);
-  if (read_plain_chunks(dataset, type, info, first, count, values)) return;
+  if (read_plain_chunks(dataset, type, info, first, count, values, spare_bytes)) return;
   Selection const rows = select_rows(dataset, info, first, count);
   checked(H5Dread(dataset.id(), type.id(), rows.memory.id(), rows.file.id(), H5P_DEFAULT, values), "read values");
 }

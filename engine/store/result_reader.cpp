@@ -80,11 +80,11 @@ std::vector<Value> read_some_rows(h5::Handle const& dataset, h5::Element element
 
 template <class Value>
 void read_into(h5::Handle const& dataset, h5::Element element, std::size_t first, std::size_t count,
-               std::span<Value> to) {
+               std::span<Value> to, std::size_t spare_bytes) {
   h5::DatasetInfo const info = describe_as(element, dataset);
   expect_rows(info, first, count);
   if (to.size() != count * info.values_per_row()) throw h5::Failure("its rows are not as wide as they should be");
-  h5::read_rows(dataset, info, first, count, to.data());
+  h5::read_rows(dataset, info, first, count, to.data(), spare_bytes);
 }
 
 }  // namespace
@@ -166,14 +166,14 @@ std::vector<std::int64_t> ResultReader::whole_number_rows(std::string const& pat
                  [&] { return read_some_rows<std::int64_t>(object(path), h5::Element::whole_number, first, count); });
 }
 
-void ResultReader::read_rows(std::string const& path, std::size_t first, std::size_t count,
-                             std::span<double> to) const {
-  guarded(path, [&] { read_into(object(path), h5::Element::number, first, count, to); });
+void ResultReader::read_rows(std::string const& path, std::size_t first, std::size_t count, std::span<double> to,
+                             std::size_t spare_bytes) const {
+  guarded(path, [&] { read_into(object(path), h5::Element::number, first, count, to, spare_bytes); });
 }
 
-void ResultReader::read_rows(std::string const& path, std::size_t first, std::size_t count,
-                             std::span<std::int64_t> to) const {
-  guarded(path, [&] { read_into(object(path), h5::Element::whole_number, first, count, to); });
+void ResultReader::read_rows(std::string const& path, std::size_t first, std::size_t count, std::span<std::int64_t> to,
+                             std::size_t spare_bytes) const {
+  guarded(path, [&] { read_into(object(path), h5::Element::whole_number, first, count, to, spare_bytes); });
 }
 
 std::vector<std::string> ResultReader::texts(std::string const& path) const {

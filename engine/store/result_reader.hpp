@@ -46,9 +46,11 @@ class ResultReader {
   // rows [first, first + count) of the first dimension alone; 65 when there are fewer
   std::vector<double> number_rows(std::string const& path, std::size_t first, std::size_t count) const;
   std::vector<std::int64_t> whole_number_rows(std::string const& path, std::size_t first, std::size_t count) const;
-  // the same into memory that is there, of as many values
-  void read_rows(std::string const& path, std::size_t first, std::size_t count, std::span<double> to) const;
-  void read_rows(std::string const& path, std::size_t first, std::size_t count, std::span<std::int64_t> to) const;
+  // the same into memory that is there, of as many values; so many bytes behind it may be changed (h5::read_rows)
+  void read_rows(std::string const& path, std::size_t first, std::size_t count, std::span<double> to,
+                 std::size_t spare_bytes = 0) const;
+  void read_rows(std::string const& path, std::size_t first, std::size_t count, std::span<std::int64_t> to,
+                 std::size_t spare_bytes = 0) const;
   std::vector<std::string> texts(std::string const& path) const;
   std::vector<std::string> text_rows(std::string const& path, std::size_t first, std::size_t count) const;
 

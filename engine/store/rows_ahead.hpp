@@ -73,7 +73,7 @@ class RowsAhead {
     auto const before = values_;
     if (!has_room) {
       room_ = rows * width_;
-      values_ = std::make_shared_for_overwrite<Value[]>(room_);
+      values_ = std::make_shared_for_overwrite<Value[]>(room_ + 1);  // one behind them: spare
     }
     // what somebody else owns stays as it is
     Value const* const from = known > 0 ? before.get() + (first - first_) * width_ : values_.get();
@@ -87,7 +87,8 @@ class RowsAhead {
       auto texts = reader.text_rows(path_, first, count);
       if (texts.size() == to.size()) std::move(texts.begin(), texts.end(), to.begin());
     } else {
-      reader.read_rows(path_, first, count, to);
+      static_assert(sizeof(Value) == h5::spare_for_checksum);
+      reader.read_rows(path_, first, count, to, to.empty() ? 0 : sizeof(Value));
     }
   }
 

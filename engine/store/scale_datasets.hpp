@@ -4,6 +4,7 @@
 // Errors     those of ResultWriter
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -13,6 +14,8 @@ namespace torquescope {
 
 // 0, 1, 2, ...: of what is only counted
 void write_index(ResultWriter& writer, std::string const& group, std::string const& dimension, std::size_t count);
+void write_numbers(ResultWriter& writer, std::string const& group, std::string const& dimension,
+                   std::span<std::int64_t const> numbers);
 // of what has a name
 void write_names(ResultWriter& writer, std::string const& group, std::string const& dimension,
                  std::span<std::string const> names);

@@ -16,6 +16,7 @@
 #include "engine/experiment/runs/provenance_writer.hpp"
 #include "engine/experiment/runs/rollout_stage.hpp"
 #include "engine/experiment/runs/stage_progress.hpp"
+#include "engine/experiment/runs/thinned_history.hpp"
 #include "engine/experiment/search_box.hpp"
 #include "engine/fit/problem/arm_accuracy.hpp"
 #include "engine/store/shard_lock.hpp"
@@ -142,9 +143,11 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
   auto const& parts = study.parts;
   auto const choice = fitness_choice(parts, plan);
   HistoryShape const shape = history_shape(parts, plan);
-  declare_histories(study.writer, plan.label, shape, study.torque_unit);
+  StoredGenerations const stored_ones = stored_generations(parts, plan);
+  declare_histories(study.writer, plan.label, shape, stored_ones, study.torque_unit);
   RunResults results;
   LastStates last_states;
+  std::vector<std::int64_t> last_generations;
   std::vector<double> PC, FC;  // of estimators with a controller
   auto const keep = [&](std::span<double const> best, double last_gap, std::string const& reason,
                         std::int64_t evaluations, std::int64_t nonfinite) {
@@ -154,28 +157,35 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
              results);
   };
   auto const commit = [&](std::size_t run, std::shared_ptr<RunHistory const> const& history) {
-    write_history(study.writer, plan.label, run, history);
-    keep(history->parameters, history->gap.back(), history->stop_reason, history->evaluations.back(),
-         history->nonfinite);
-    last_states.add(history->last_state);
+    auto const kept =
+        stored_ones.all() ? history : std::make_shared<RunHistory const>(thinned(*history, shape, stored_ones));
+    write_history(study.writer, plan.label, run, kept);
+    last_generations.push_back(static_cast<std::int64_t>(history->told) - 1);
+    // behind the end of a run that stopped early stands padding
+    double const last_gap = history->told > 0 ? history->gap[history->told - 1] : history->gap.back();
+    keep(history->parameters, last_gap, history->stop_reason, history->evaluations.back(), history->nonfinite);
+    if (stored_ones.all()) last_states.add(history->last_state);
     if (!plan.controller) return;
-    PC.insert(PC.end(), history->PC.begin(), history->PC.end());
-    FC.insert(FC.end(), history->FC.begin(), history->FC.end());
+    PC.insert(PC.end(), kept->PC.begin(), kept->PC.end());
+    FC.insert(FC.end(), kept->FC.begin(), kept->FC.end());
   };
   auto const commit_stored = [&](std::size_t first, StoredRuns const& runs) {
-    write_histories(study.writer, plan.label, first, runs);
+    StoredRuns const some = stored_ones.all() ? StoredRuns() : thinned(runs, shape, stored_ones);
+    StoredRuns const& kept = stored_ones.all() ? runs : some;
+    write_histories(study.writer, plan.label, first, kept);
+    last_generations.insert(last_generations.end(), runs.count, static_cast<std::int64_t>(shape.generations));
     std::size_t const entries = shape.generations + 1;
     auto const gaps = history_of(runs, &RunHistory::gap);
     for (std::size_t i = 0; i < runs.count; ++i) {
       std::size_t const last = (i + 1) * entries - 1;
       keep(runs.parameters.values.subspan(i * shape.parameters, shape.parameters), gaps[last], runs.stop_reasons[i],
            runs.evaluations.values[last], runs.nonfinite.values[i]);
-      last_states.add(runs.last_states[i]);
+      if (stored_ones.all()) last_states.add(runs.last_states[i]);
     }
     if (!plan.controller) return;
-    for (auto const& [kept, list] : {std::pair{&PC, &RunHistory::PC}, {&FC, &RunHistory::FC}}) {
-      auto const values = history_of(runs, list);
-      kept->insert(kept->end(), values.begin(), values.end());
+    for (auto const& [all, list] : {std::pair{&PC, &RunHistory::PC}, {&FC, &RunHistory::FC}}) {
+      auto const values = history_of(kept, list);
+      all->insert(all->end(), values.begin(), values.end());
     }
   };
   if (!study.merges) {
@@ -200,9 +210,13 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
     measure_rollouts(parts, study.attempt.options.threads.count, results);
   else
     measure_runs(study, results);
-  if (shape.members > 0) last_states.write(study.writer, plan.label);
+  // nothing goes on from a history with gaps
+  if (!stored_ones.all())
+    write_ends(study.writer, plan.label, last_generations);
+  else if (shape.members > 0)
+    last_states.write(study.writer, plan.label);
   write_fitness_choice(study.writer, plan.label, choice);
-  if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape, PC, FC);
+  if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape.runs, PC, FC);
   return results;
 }
 

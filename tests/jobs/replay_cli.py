@@ -157,6 +157,15 @@ class Replay(cli_folder.Folder):
             self.assertTrue(np.all(np.diff(file["runs/de/best"][0]) <= 0))
             self.assertEqual(file["runs/de"].attrs["fitness_used"], b"rollout")
 
+    def test_a_population_that_stops_early_has_the_error_it_stopped_at(self):
+        self.job('[[estimator]]\nname = "de"\nfitness = "rollout"\npopulation = 8\ngenerations = 9\nevaluations = 20\n')
+        self.assertEqual(self.run_here("run", "job.toml", "--out", "early.h5", "--quiet").code, 0)
+        with h5py.File(os.path.join(self.folder, "early.h5"), locking=False) as file:
+            found = file["runs/de"]
+            self.assertEqual(set(found["stop_reason"]), {b"evaluations"})
+            np.testing.assert_array_equal(found["gap"], np.nanmin(found["gap_history"], axis=1))
+            self.assertTrue(np.isfinite(found.attrs["gap_median"]))
+
     def test_added_commands_act_where_they_are_added(self):
         columns = {"time": "t_s", "reference": "r_rad", "position": "q_rad", "torque": "u_Nm",
                    "added_command": "added_V"}

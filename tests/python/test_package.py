@@ -173,9 +173,24 @@ class AnIdentification(unittest.TestCase):
         self.assertEqual(list(fitted.to_frame("estimators").index), ["ols", "de"])
         histories = fitted.to_xarray("de")
         self.assertEqual(dict(histories.best.sizes), {"run": 3, "generation": 21})
+        self.assertEqual(list(histories.generation.values), list(range(21)))
         self.assertIn("inertia", fitted._repr_html_())
         self.assertRegex(repr(fitted), "4 parameters; ols, de")
         self.assertTrue(fitted.plot.trace().axes)
+
+    def test_knows_which_generations_it_stores(self):
+        def identified(history):
+            return ts.identify(MOTION, model=MODEL, filter=FILTER, estimators={"name": "de", "generations": 25},
+                               experiment={"runs": 2}, output={"history": history}).to_xarray("de")
+
+        whole, some = identified("full"), identified("every 10")
+        self.assertEqual(list(some.generation.values), [0, 10, 20, 25])
+        self.assertEqual(list(some.last_generation.values), [25, 25])
+        for name in ("population", "fitness", "best", "F", "evaluations"):
+            np.testing.assert_array_equal(some[name], whole[name].sel(generation=some.generation))
+        self.assertNotIn("last_generation", whole)
+        with self.assertRaisesRegex(ts.JobError, 'history = "some" names no generations'):
+            identified("some")
 
     def test_of_an_arm_takes_one_column_a_joint(self):
         robot = ts.Robot(SOURCE / "jobs/robots/crs_a465.toml")

@@ -11,6 +11,7 @@
 #include "engine/app/session_progress.hpp"
 #include "engine/app/terminal/interrupt.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/heap.hpp"
 
 namespace torquescope {
 
@@ -25,6 +26,7 @@ struct MergeArguments {
 };
 
 ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
+  prepare_heap();
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   Experiment experiment = Experiment::load(arguments.job);
   std::filesystem::path const output =

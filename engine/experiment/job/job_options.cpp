@@ -26,6 +26,9 @@ OptionTable<OutputOptions> const& OutputOptions::table() {
           {"populations", &OutputOptions::populations,
            "store every member of every generation; without them a history is what the best one was and what the "
            "method did, and a study of an arm takes megabytes instead of gigabytes"},
+          {"history", &OutputOptions::history,
+           "generations of each run that are stored: \"full\" (every one), \"every 10\" (0, 10, 20, ... and the last) "
+           "or \"last\"; --continue needs a full history"},
       });
   return options;
 }

@@ -22,6 +22,7 @@ struct OutputOptions {
   std::string compression = "none";  // "none" or "gzip"
   bool samples = true;               // false: no sample of a recording, which a page would draw
   bool populations = true;           // false: of every generation its best alone
+  std::string history = "full";      // generations that are stored: StoredGenerations
 
   static OptionTable<OutputOptions> const& table();
 };

@@ -11,8 +11,8 @@ namespace torquescope {
 namespace {
 
 // sizes that the job reader allows (check_sizes) fit; a sum of a few of them does too
-std::uintmax_t history_bytes(HistoryShape const& shape, std::size_t runs) {
-  std::uintmax_t const generations = runs * (shape.generations + 1);
+std::uintmax_t history_bytes(HistoryShape const& shape, std::size_t runs, std::size_t generations_of_run) {
+  std::uintmax_t const generations = runs * generations_of_run;
   std::uintmax_t numbers = generations;  // evaluations
   for (auto const& list : history_lists) numbers += generations * list.width(shape);
   return numbers * sizeof(double);
@@ -51,9 +51,11 @@ std::uintmax_t result_bytes(Experiment::Parts const& parts) {
   for (auto const& plan : parts.estimators) {
     if (plan.is_closed_form()) continue;
     HistoryShape const shape = history_shape(parts, plan);
-    bytes += history_bytes(shape, runs) + last_state_bytes(shape, runs);
-    bytes += (runs + shape.generations + 1 + shape.members) * sizeof(double);  // scales
-    if (plan.controller) bytes += curves_and_surfaces + runs * (shape.generations + 1) * path_numbers * sizeof(double);
+    StoredGenerations const stored = stored_generations(parts, plan);
+    bytes += history_bytes(shape, runs, stored.count());
+    bytes += stored.all() ? last_state_bytes(shape, runs) : runs * sizeof(double);
+    bytes += (runs + stored.count() + shape.members) * sizeof(double);  // scales
+    if (plan.controller) bytes += curves_and_surfaces + runs * stored.count() * path_numbers * sizeof(double);
   }
   return stored_bytes(parts, bytes + all_sample_bytes(parts));
 }
@@ -61,9 +63,11 @@ std::uintmax_t result_bytes(Experiment::Parts const& parts) {
 std::uintmax_t segment_bytes(Experiment::Parts const& parts, std::size_t runs) {
   if (runs == 0) return 0;
   std::uintmax_t bytes = bytes_of_names;
-  for (auto const& plan : parts.estimators)
-    if (!plan.is_closed_form())
-      bytes += history_bytes(history_shape(parts, plan), runs) + last_state_bytes(history_shape(parts, plan), runs);
+  for (auto const& plan : parts.estimators) {
+    if (plan.is_closed_form()) continue;
+    HistoryShape const shape = history_shape(parts, plan);
+    bytes += history_bytes(shape, runs, shape.generations + 1) + last_state_bytes(shape, runs);
+  }
   return bytes;
 }
 

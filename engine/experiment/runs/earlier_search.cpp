@@ -156,6 +156,13 @@ void check_fitness(Pair const& pair, EarlierSearch::Method const& method, Experi
 void check_states(std::string const& label, EarlierSearch const& earlier, std::vector<Problem>& problems) {
   auto const& method = earlier.methods.at(label);
   if (method.has_states) return;
+  if (method.is_thinned) {
+    problems.push_back({.code = ExitCode::bad_job,
+                        .what = fmt::format("{} stores some generations of {} only: none can go on from there",
+                                            earlier.file.string(), label),
+                        .help = begin_anew + ", with [output] history = \"full\""});
+    return;
+  }
   problems.push_back(
       {.code = ExitCode::bad_job,
        .what = fmt::format("{} keeps no states of {} to go on from", earlier.file.string(), label),
@@ -206,7 +213,8 @@ EarlierSearch read_earlier_search(ResultReader const& reader) {
     earlier.methods[label] = {
         reader.find_attribute<std::string>(group, "fitness_used").value_or(""),
         reader.find_attribute<std::vector<double>>(group, "start").value_or(std::vector<double>()),
-        reader.exists(group + "/population"), reader.exists(group + "/last_state")};
+        reader.exists(group + "/population"), reader.exists(group + "/last_state"),
+        reader.exists(group + "/last_generation")};
   }
   return earlier;
 }

@@ -24,6 +24,7 @@ struct EarlierSearch {
     std::string fitness_used;
     std::vector<double> start;  // of start_from; else empty
     bool has_populations = false, has_states = false;
+    bool is_thinned = false;  // it stores some generations only
   };
   std::filesystem::path file;
   Job job;

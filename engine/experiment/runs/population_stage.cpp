@@ -205,6 +205,10 @@ HistoryShape history_shape(Experiment::Parts const& parts, EstimatorPlan const& 
           parts.output.populations ? plan.make_optimiser(parts.box, {})->largest_batch() : 0, parts.parameters()};
 }
 
+StoredGenerations stored_generations(Experiment::Parts const& parts, EstimatorPlan const& plan) {
+  return StoredGenerations::of(parts.output.history, static_cast<std::size_t>(plan.stop_rules.generations)).value();
+}
+
 std::vector<std::size_t> runs_of_shard(Experiment::Parts const& parts, ShardChoice const& shard) {
   std::vector<std::size_t> runs;
   auto const n_runs = static_cast<std::size_t>(parts.experiment.runs);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/experiment/experiment_parts.hpp"
+#include "engine/experiment/job/stored_generations.hpp"
 #include "engine/experiment/progress_update.hpp"
 #include "engine/experiment/runs/earlier_result.hpp"
 #include "engine/experiment/runs/identify_options.hpp"
@@ -43,6 +44,8 @@ struct Attempt {
 };
 
 HistoryShape history_shape(Experiment::Parts const& parts, EstimatorPlan const& plan);
+// in the result; segments have them all
+StoredGenerations stored_generations(Experiment::Parts const& parts, EstimatorPlan const& plan);
 // runs of this shard, ascending
 std::vector<std::size_t> runs_of_shard(Experiment::Parts const& parts, ShardChoice const& shard);
 

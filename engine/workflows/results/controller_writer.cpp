@@ -45,7 +45,7 @@ void write_surface(ResultWriter& writer, std::string const& group, std::string c
 }  // namespace
 
 void write_controller(ResultWriter& writer, std::string const& label, FuzzyController const& controller,
-                      HistoryShape const& shape, std::vector<double> const& PC, std::vector<double> const& FC) {
+                      std::size_t runs, std::vector<double> const& PC, std::vector<double> const& FC) {
   std::string const group = "/runs/" + label + "/controller";
   write_curves(writer, group, controller);
   write_surface(writer, group, "F", decision_surface(controller.F_system(), surface_points));
@@ -60,7 +60,7 @@ void write_controller(ResultWriter& writer, std::string const& label, FuzzyContr
     F_path.insert(F_path.end(), F_levels.begin(), F_levels.end());
     CR_path.insert(CR_path.end(), CR_levels.begin(), CR_levels.end());
   }
-  h5::Shape const path_shape{shape.runs, shape.generations + 1, 2};
+  h5::Shape const path_shape{runs, PC.size() / runs, 2};
   writer.numbers(group + "/F_path", path_shape, F_path,
                  Note{"1", "where each run was on the surface of F"}.over({"run", "generation", "F_input"}));
   writer.numbers(group + "/CR_path", path_shape, CR_path,

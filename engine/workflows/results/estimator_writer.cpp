@@ -86,9 +86,9 @@ void write_summary(ResultWriter& writer, std::string const& group, RunResults co
 }  // namespace
 
 void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape,
-                       std::string const& torque_unit) {
+                       StoredGenerations const& stored, std::string const& torque_unit) {
   std::string const group = group_of(label) + "/";
-  std::size_t const generations = shape.generations + 1;
+  std::size_t const generations = stored.count();
   if (shape.members > 0) {
     writer.declare_runs(group + "population", shape.runs, {generations, shape.members, shape.parameters},
                         Note{"SI", "population after selection"}.over({"run", "generation", "member", "parameter"}));
@@ -96,7 +96,10 @@ void declare_histories(ResultWriter& writer, std::string const& label, HistorySh
                         Note{"1", "fitness of the population"}.over({"run", "generation", "member"}));
     write_index(writer, group_of(label), "member", shape.members);
   }
-  write_index(writer, group_of(label), "generation", generations);
+  std::vector<std::int64_t> numbers;
+  for (std::size_t entry = 0; entry < generations; ++entry)
+    numbers.push_back(static_cast<std::int64_t>(stored.number(entry)));
+  write_numbers(writer, group_of(label), "generation", numbers);
   for (auto const& dataset : per_generation(torque_unit))
     writer.declare_runs(group + dataset.name, shape.runs, {generations}, dataset.note.over({"run", "generation"}));
   writer.declare_runs(group + "evaluations", shape.runs, {generations},
@@ -121,6 +124,11 @@ void write_histories(ResultWriter& writer, std::string const& label, std::size_t
   lists.push_back({group + "evaluations", h5::Element::whole_number, std::as_bytes(runs.evaluations.values),
                    runs.evaluations.owner});
   writer.write_runs(first, runs.count, lists);
+}
+
+void write_ends(ResultWriter& writer, std::string const& label, std::vector<std::int64_t> const& last_generations) {
+  writer.whole_numbers(group_of(label) + "/last_generation", {last_generations.size()}, last_generations,
+                       Note{"1", "last generation of each run"}.over({"run"}));
 }
 
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,

@@ -5,12 +5,14 @@
 // Errors     those of ResultWriter
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/effects/regressor.hpp"
 #include "engine/experiment/estimator_plan.hpp"
+#include "engine/experiment/job/stored_generations.hpp"
 #include "engine/experiment/runs/run_part.hpp"
 #include "engine/experiment/runs/run_summary.hpp"
 #include "engine/experiment/runs/segment_file.hpp"
@@ -21,12 +23,14 @@ namespace torquescope {
 
 // torque_unit: "N m" or "N"
 void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape,
-                       std::string const& torque_unit);
+                       StoredGenerations const& stored, std::string const& torque_unit);
 // the writer may keep it for a while
 void write_history(ResultWriter& writer, std::string const& label, std::size_t run,
                    std::shared_ptr<RunHistory const> const& history);
 // of neighbouring runs from `first` on
 void write_histories(ResultWriter& writer, std::string const& label, std::size_t first, StoredRuns const& runs);
+// of every run its last generation, -1 where it has none: of histories with some generations only
+void write_ends(ResultWriter& writer, std::string const& label, std::vector<std::int64_t> const& last_generations);
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,
                    std::string const& torque_unit, std::vector<std::string> const& parameters);
 
@@ -42,8 +46,8 @@ struct JointForm;
 void write_least_squares(ResultWriter& writer, std::string const& label, LeastSquaresFit const& fit,
                          JointForm const* form);
 
-// curves, surfaces and the path of every run on them; PC and FC: [run][generation]
+// curves, surfaces and the path of every run on them; PC and FC: [run][generation that is stored]
 void write_controller(ResultWriter& writer, std::string const& label, FuzzyController const& controller,
-                      HistoryShape const& shape, std::vector<double> const& PC, std::vector<double> const& FC);
+                      std::size_t runs, std::vector<double> const& PC, std::vector<double> const& FC);
 
 }  // namespace torquescope

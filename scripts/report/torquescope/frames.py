@@ -12,7 +12,7 @@ RUNS = {"parameters": ("run", "parameter"), "standard_error": ("run", "parameter
         "population": ("run", "generation", "member", "parameter"), "fitness": ("run", "generation", "member"),
         **{name: ("run", "generation") for name in ("F", "CR", "PC", "FC", "best", "gap_history", "evaluations")},
         **{name: ("run",) for name in ("mse", "gap", "relerr", "validation_relerr", "residual_std", "residual_mean",
-                                       "validation_residual_std", "sse", "stop_reason")}}
+                                       "validation_residual_std", "sse", "stop_reason", "last_generation")}}
 SUMMARY = ("kind", "runs", "mse_median", "gap_median", "relerr_median", "validation_relerr_median",
            "residual_std_median", "evaluations_total")
 
@@ -164,6 +164,8 @@ def _of_estimator(result, name):
     import xarray
     group = result.estimators[name]
     coordinates = {"parameter": [str(one) for one in result.model.names], "bound": ["low", "high"]}
+    if "generation" in group:
+        coordinates["generation"] = group.generation  # which ones are stored: [output] history
     variables = {one: _variable(group, one, dims) for one, dims in RUNS.items() if one in group}
     used = {dim for dims, _, _ in variables.values() for dim in dims}
     return xarray.Dataset(variables, {key: value for key, value in coordinates.items() if key in used},

@@ -244,7 +244,8 @@ class Convergence(unittest.TestCase):
         self.assertEqual([one.label for one in cases["targets_reached"].arguments["searches"]], ["DE"])
 
     def test_generations_that_ran_away_leave_a_gap(self):
-        figure = draw([("FADE", np.array([[np.inf, 2.0, 1.0], [np.inf, np.inf, 4.0]]), "#000000", "solid")], "", "what")
+        gaps = np.array([[np.inf, 2.0, 1.0], [np.inf, np.inf, 4.0]])
+        figure = draw([("FADE", np.arange(3), gaps, "#000000", "solid")], "", "what")
         low, high = figure.axes[0].get_ylim()
         self.assertTrue(0 < low <= 1.0 and 4.0 <= high < 100)
 

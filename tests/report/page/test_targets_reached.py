@@ -66,6 +66,7 @@ class TargetsReached(unittest.TestCase):
         class Partial:
             gap_history = np.array([[4, 2, np.nan], [np.nan] * 3, [4, np.nan, 1]])
             evaluations = np.array([[10, 20, 0], [0, 0, 0], [10, 20, 30]])
+            draws_histories = True
             short, ink, dashes = "DE", style.LIGHT["de"], "solid"
 
         found = figure.search_of(Partial)

@@ -57,6 +57,21 @@ TEST_F(RowsAheadOf, OneReadServesManyRows) {
   EXPECT_EQ(n_reads_, 10);
 }
 
+// a chunk's checksum lies behind its values on the disk, and is read with them
+TEST_F(RowsAheadOf, NothingIsChangedBehindThemButWhatIsSpare) {
+  for (std::size_t const spare : {std::size_t{0}, h5::spare_for_checksum}) {
+    for (std::size_t const first : {std::size_t{0}, n_rows - 1}) {
+      std::size_t const count = (n_rows - first) * width;
+      std::vector<double> room(count + 2, -1.0);
+      open().read_rows("/numbers", first, n_rows - first, std::span(room).first(count), spare);
+      auto const begin = numbers_.begin() + static_cast<std::ptrdiff_t>(first * width);
+      EXPECT_TRUE(std::equal(begin, numbers_.end(), room.begin())) << spare << " " << first;
+      EXPECT_TRUE(spare > 0 || room[count] == -1.0) << first;
+      EXPECT_EQ(room[count + 1], -1.0) << spare << " " << first;
+    }
+  }
+}
+
 TEST_F(RowsAheadOf, WholeChunksAreReadWhereTheyFit) {
   h5::DatasetInfo chunked = layout("/numbers");
   chunked.chunk = {30, width};

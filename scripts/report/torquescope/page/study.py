@@ -92,6 +92,16 @@ class Estimator(View):
         return self.kind not in ONE_RUN
 
     @property
+    def generations(self):
+        """That its histories hold; earlier files do not say."""
+        return np.arange(np.shape(self.gap_history)[1]) if self.generation is None else np.asarray(self.generation)
+
+    @property
+    def draws_histories(self):
+        """Not where [output] history stores too few generations for a curve."""
+        return self.gap_history is not None and (self.last_generation is None or len(self.generations) > 2)
+
+    @property
     def chosen(self):
         """Parameters [R] of the median run."""
         return self.parameters[int(self.median_run or 0)]
@@ -199,7 +209,7 @@ class Study:
 
 
 def held(history):
-    """History [run][G+1] with the last value kept after a run has stopped."""
+    """History [run][generation] with the last value kept after a run has stopped."""
     filled = np.array(history, dtype=float)
     for run in filled:
         known = np.flatnonzero(np.isfinite(run))

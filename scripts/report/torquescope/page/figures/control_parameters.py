@@ -9,8 +9,8 @@ from ..study import held
 MOST_RUNS = 60
 
 
-def draw(F, CR, colour=style.LIGHT["ink"], width=style.SMALL):
-    """F, CR: [run][G+1], NaN where undefined."""
+def draw(generations, F, CR, colour=style.LIGHT["ink"], width=style.SMALL):
+    """F, CR: [run][generation], NaN where undefined."""
     canvas = style.Canvas(width, 240)
     axes = canvas.axes(50, 30, width - 40, 196)
     ends, highest = [], 0.0
@@ -19,13 +19,13 @@ def draw(F, CR, colour=style.LIGHT["ink"], width=style.SMALL):
         defined = np.flatnonzero(np.isfinite(values).any(axis=0))
         values = values[:, defined]
         for run in values[:MOST_RUNS]:
-            axes.plot(defined, run, color=colour, linewidth=0.7, alpha=0.25, label=f"_{name}")
+            axes.plot(generations[defined], run, color=colour, linewidth=0.7, alpha=0.25, label=f"_{name}")
         median = np.nanmedian(values, axis=0)
-        axes.plot(defined, median, color=colour, linestyle=dashes, linewidth=2.4, label=name)
+        axes.plot(generations[defined], median, color=colour, linestyle=dashes, linewidth=2.4, label=name)
         ends.append((name, median[-1]))
         highest = max(highest, np.nanmax(values))
     top = 1.0 if highest <= 1 else 2.0 if highest <= 2 else 1.05 * highest
-    axes.set(xlim=(0, F.shape[1] - 1), ylim=(0, top), xlabel="generation")
+    axes.set(xlim=(0, generations[-1]), ylim=(0, top), xlabel="generation")
     readings.of(axes, ("generation", ""), ("control parameter", ""))
     axes.xaxis.labelpad = 3
     style.few_ticks(axes.xaxis, 4)
@@ -41,9 +41,10 @@ def draw(F, CR, colour=style.LIGHT["ink"], width=style.SMALL):
 def cases(study):
     found = {}
     for e in study.searches:
-        if e.controller is None or e.F is None:
+        if e.controller is None or e.F is None or not e.draws_histories:
             continue
         title = f"F and CR of {e.label}"
         sentence = "Mutation factor F (solid) and crossover rate CR (dashed) as the fuzzy controller set them."
-        found[f"control_parameters_{e.name}"] = Case(draw, {"F": e.F, "CR": e.CR, "colour": e.ink}, title, sentence)
+        arguments = {"generations": e.generations, "F": e.F, "CR": e.CR, "colour": e.ink}
+        found[f"control_parameters_{e.name}"] = Case(draw, arguments, title, sentence)
     return found

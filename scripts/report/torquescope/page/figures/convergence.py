@@ -14,24 +14,23 @@ LOWEST = 1e-18  # below this the quadratic form is rounding
 
 
 def draw(histories, unit, what="MSE above the floor", width=style.SMALL):
-    """histories: [(label, gap [run][G+1] in squared units, colour, dashes)]; what: they are."""
+    """histories: [(label, generations, gap [run][generation] in squared units, colour, dashes)]; what: they are."""
     canvas = style.Canvas(width, 240)
     axes = canvas.axes(50, 30, width - 14, 196, yscale="log")
     top, bottom = -np.inf, np.inf
-    medians = []
-    for label, gaps, colour, dashes in histories:
+    medians = []  # [(label, generations, median, colour)]
+    for label, generations, gaps, colour, dashes in histories:
         gaps = np.maximum(held(np.where(np.isfinite(gaps), gaps, np.nan)), LOWEST)  # infinite: ran away
-        generations = np.arange(gaps.shape[1])
         for run in gaps[:MOST_RUNS]:
             axes.plot(generations, run, color=colour, linewidth=0.7, alpha=0.28, label=f"_{label}")
         known = np.isfinite(gaps).any(axis=0)
         median = np.full(len(known), np.nan)
         median[known] = np.nanmedian(gaps[:, known], axis=0)
         axes.plot(generations, median, color=colour, linestyle=dashes, linewidth=2.4, label=label)
-        medians.append((label, median, colour))
+        medians.append((label, generations, median, colour))
         top, bottom = max(top, np.nanmax(gaps)), min(bottom, np.nanmin(gaps))
     low, high = 10.0 ** np.floor(np.log10(bottom)), 10.0 ** np.ceil(np.log10(top))
-    last = max(len(median) for _, median, _ in medians) - 1
+    last = max(generations[-1] for _, generations, _, _ in medians)
     axes.set(xlim=(0, last), ylim=(low, high), xlabel="generation")
     readings.of(axes, ("generation", ""), (what, unit))
     axes.xaxis.labelpad = 3
@@ -46,13 +45,14 @@ def _label(axes, medians, low, high, last):
     # names where the curves have parted, each beside its own curve; the steepest is named below its curve, the others
     # above
     at = int(0.62 * last)
-    told = [median[np.isfinite(median)] for _, median, _ in medians]
-    heights = [np.log10(median[min(at, len(median) - 1)]) for median in told]
+    told = [(generations[np.isfinite(median)], median[np.isfinite(median)]) for _, generations, median, _ in medians]
+    heights = [np.log10(median[min(np.searchsorted(generations, at), len(median) - 1)])
+               for generations, median in told]
     decades = np.log10(high / low)
     step = 16 * decades / 166  # 16 px
     order = np.argsort(heights)
     wanted = [h + (1.1 * step if i != order[0] or len(medians) == 1 else -1.1 * step) for i, h in enumerate(heights)]
-    for (label, _, colour), y in zip(
+    for (label, _, _, colour), y in zip(
         medians, style.spread(wanted, step, np.log10(low) + 0.6 * step, np.log10(high) - step)
     ):
         right = y > heights[[m[0] for m in medians].index(label)]
@@ -64,10 +64,11 @@ def cases(study):
     found = {}
     simulated = [e for e in study.searches if e.rolls_out]
     for name, searches in (("convergence", study.to_floor), ("convergence_simulated", simulated)):
-        histories = [(e.short, e.gap_history, e.ink, e.dashes) for e in searches if np.isfinite(_told(e)).any()]
+        histories = [(e.short, e.generations, e.gap_history, e.ink, e.dashes) for e in searches
+                     if e.draws_histories and np.isfinite(e.gap_history).any()]
         if not histories:
             continue
-        runs = max(len(gaps) for _, gaps, _, _ in histories)
+        runs = max(len(gaps) for _, _, gaps, _, _ in histories)
         some = f" ({MOST_RUNS} of {quantities.whole(runs)} runs are drawn)" if runs > MOST_RUNS else ""
         sentence = f"Each thin line is one run{some}, the thick line the median of all."
         if searches is simulated:
@@ -78,7 +79,3 @@ def cases(study):
             found[name] = Case(draw, {"histories": histories, "unit": quantities.square(study.effort_unit)}, TITLE,
                                f"{sentence} A straight fall is a rate.")
     return found
-
-
-def _told(search):
-    return search.gap_history if search.gap_history is not None else np.empty(0)

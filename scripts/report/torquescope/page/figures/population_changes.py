@@ -9,8 +9,8 @@ from ..study import held
 MOST_RUNS = 60
 
 
-def draw(PC, FC, colour=style.LIGHT["ink"], width=style.SMALL):
-    """PC, FC: [run][G+1], root mean square change of the members and of their fitness; NaN where undefined."""
+def draw(generations, PC, FC, colour=style.LIGHT["ink"], width=style.SMALL):
+    """PC, FC: [run][generation], root mean square change of the members and of their fitness; NaN where undefined."""
     canvas = style.Canvas(width, 240)
     axes = canvas.axes(50, 30, width - 40, 196, yscale="log")
     low, high, ends = np.inf, -np.inf, []
@@ -21,13 +21,13 @@ def draw(PC, FC, colour=style.LIGHT["ink"], width=style.SMALL):
         defined = np.flatnonzero(np.isfinite(values).any(axis=0))
         values = values[:, defined]
         for run in values[:MOST_RUNS]:
-            axes.plot(defined, run, color=colour, linewidth=0.7, alpha=0.22, label=f"_{name}")
+            axes.plot(generations[defined], run, color=colour, linewidth=0.7, alpha=0.22, label=f"_{name}")
         median = np.nanmedian(values, axis=0)
-        axes.plot(defined, median, color=colour, linestyle=dashes, linewidth=2.4, label=name)
+        axes.plot(generations[defined], median, color=colour, linestyle=dashes, linewidth=2.4, label=name)
         ends.append((name, median[-1]))
         low, high = min(low, np.nanmin(values)), max(high, np.nanmax(values))
     low, high = 10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high))
-    axes.set(xlim=(0, PC.shape[1] - 1), ylim=(low, high), xlabel="generation")
+    axes.set(xlim=(0, generations[-1]), ylim=(low, high), xlabel="generation")
     readings.of(axes, ("generation", ""), ("change per generation", ""))
     axes.xaxis.labelpad = 3
     style.decades(axes.yaxis, low, high)
@@ -44,10 +44,10 @@ def draw(PC, FC, colour=style.LIGHT["ink"], width=style.SMALL):
 def cases(study):
     found = {}
     for e in study.searches:
-        if e.controller is None or e.PC is None or not np.any(np.asarray(e.PC) > 0):
+        if e.controller is None or e.PC is None or not e.draws_histories or not np.any(np.asarray(e.PC) > 0):
             continue
         sentence = ("Root mean square change of the members (PC, solid) and of their fitness (FC, dashed): "
                     "the controller's input.")
-        found[f"population_changes_{e.name}"] = Case(draw, {"PC": e.PC, "FC": e.FC, "colour": e.ink},
-                                                     f"PC and FC of {e.label}", sentence)
+        arguments = {"generations": e.generations, "PC": e.PC, "FC": e.FC, "colour": e.ink}
+        found[f"population_changes_{e.name}"] = Case(draw, arguments, f"PC and FC of {e.label}", sentence)
     return found

@@ -105,8 +105,8 @@ def _ticks(axis, low, high, most=5):
 
 
 def search_of(estimator):
-    """Of the runs that are there; None where no history was kept."""
-    if estimator.gap_history is None or estimator.evaluations is None:
+    """Of the runs that are there; None where no history was kept, or too little of it."""
+    if not estimator.draws_histories or estimator.evaluations is None:
         return None
     gaps, evaluations = [], []
     for gap, spent in zip(np.asarray(estimator.gap_history, dtype=float), np.asarray(estimator.evaluations)):
@@ -130,4 +130,6 @@ def cases(study):
                 f"logarithmic scale of the MSE above the floor: from {start}, the median of the initial populations’ "
                 f"best, to {deepest}, {end}. Further left is faster, higher is more reliable; × marks the end of the "
                 "longest run.")
+    if any(e.last_generation is not None for e in study.to_floor):
+        sentence += " The result stores some generations only: a target counts from the next stored one."
     return {"targets_reached": Case(draw, {"searches": searches, "targets": targets}, TITLE, sentence)}
