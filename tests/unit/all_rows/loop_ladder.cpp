@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -21,7 +22,7 @@ namespace loop_ladder_test {
 constexpr double rate_hz = 100.0, encoder_step = 1.5e-3, turn = 2.0 * std::numbers::pi;
 
 struct Planted {
-  double speed_limit = 0.0, delay_s = 0.0, cogging = 0.0;  // 0: none
+  double speed_limit = 0.0, delay_s = 0.0, cogging = 0.0, spring = 0.0;  // 0: none
   std::uint64_t seed = 1;
 };
 
@@ -52,6 +53,7 @@ RolloutTrack recorded(Planted const& planted, double pace) {
   joint.backward = -0.1;
   joint.offset = 0.05;
   if (planted.cogging > 0.0) joint.smooth = [=](double, double q) { return planted.cogging * std::sin(7.0 * q + 0.4); };
+  if (planted.spring > 0.0) joint.smooth = [=](double, double q) { return planted.spring * q; };
   PlainController controller;
   controller.form = "p";
   controller.kp = 5.0;
@@ -78,7 +80,7 @@ struct Asked {
   JointScales scales{};
   LoopSetting loop{};
   std::vector<RolloutTrack> training, validation;
-  LoopFacts climbed(int threads) const {
+  LoopQuestion question(int threads) const {
     LoopQuestion question{terms, start, scales, loop, training, validation};
     question.moves = drive_moves(loop, training, drive_laws_of(DriveLawKind::profile));
     question.moves.push_back(law_move(*find_effect("cogging"), {7.1}, scales));
@@ -86,8 +88,9 @@ struct Asked {
     question.moves.push_back(law_move(*find_effect("spring"), {}, scales));
     question.seed = 5;
     question.threads = threads;
-    return climb_ladder(question).facts;
+    return question;
   }
+  LoopFacts climbed(int threads) const { return climb_ladder(question(threads)).facts; }
 };
 
 Asked asked_of(Planted const& planted) {
@@ -164,6 +167,35 @@ TEST(LoopLadder, SaysThatAModelPredictsNothing) {
   Asked asked = asked_of({});
   asked.training.front().position *= -1.0;
   EXPECT_NE(asked.climbed(1).reason, LoopReason::decides);
+}
+
+// a spring whose rest is at the end of the travel: it says nothing of one that hardly hardens
+TEST(LoopLadder, ANumberIsAtItsBoundWhereItMattersBeyondChance) {
+  Asked const asked = asked_of({.spring = 0.3});
+  LoopQuestion const question = asked.question(1);
+  auto const spring =
+      static_cast<std::size_t>(std::find_if(question.moves.begin(), question.moves.end(),
+                                            [](LoopMove const& move) { return name_of(move.subject) == "spring"; }) -
+                               question.moves.begin());
+  ASSERT_LT(spring, question.moves.size());
+  LoopPoint const begun = with_move(question, base_point(question), spring, question.moves[spring].starts.front());
+  LoopFit fit = fitted(question, begun);
+  ASSERT_FALSE(fit.fit.failed);
+  auto const numbers = fit.point.model(question).parameters();
+  auto const at = [&](std::string const& name) {
+    auto const place = std::find_if(numbers.begin(), numbers.end(), [&](auto const& one) { return one.name == name; });
+    return place - numbers.begin();
+  };
+  EXPECT_NEAR(fit.fit.parameters[at("spring")], 0.3, 0.02);
+  fit.fit.parameters[at("spring_rest")] = numbers[static_cast<std::size_t>(at("spring_rest"))].lower;
+  double const hardest = numbers[static_cast<std::size_t>(at("spring_hardening"))].upper;
+  auto const is_bound = [&](double share) {
+    fit.fit.parameters[at("spring_hardening")] = share * hardest;
+    return is_at_bound(question, fit, spring);
+  };
+  EXPECT_FALSE(is_bound(0.0));
+  EXPECT_FALSE(is_bound(1e-4));
+  EXPECT_TRUE(is_bound(0.5));
 }
 
 std::vector<double> numbers_in(LoopFacts const& facts) {
