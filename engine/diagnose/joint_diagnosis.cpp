@@ -44,8 +44,7 @@ std::string without_reference_sentence(bool is_echo) {
                                   : "No reference was recorded";
   return why +
          ": replicates follow the measured motion, and the torque's noise is read from what the model leaves, so that "
-         "small "
-         "effects hide; reversals are not looked at (reference = \"COLUMN\" in recording.columns: what was commanded).";
+         "small effects hide (reference = \"COLUMN\" in recording.columns: what was commanded).";
 }
 
 std::string several_recordings_sentence(DiagnosisInput const& input) {

@@ -168,9 +168,11 @@ std::vector<LoopNumber> numbers_of(LoopQuestion const& question, LoopFit const& 
 
 namespace {
 
-// Whether a number at an end of its range does, beyond chance: the rest of a spring that hardly hardens is at no bound.
-// D of one number is chi-squared (Wilks 1938, doi:10.1214/aoms/1177732360)
-bool changes_anything(LoopQuestion const& question, RolloutModel const& model, LoopFit const& fit, std::size_t number) {
+// Whether a number at the end of its range matters beyond chance. The rest of a spring that hardly hardens does not.
+// D of one number is chi-squared (Wilks 1938, doi:10.1214/aoms/1177732360). The others are not fitted again:
+// D is too large, and a bound is found rather too often
+bool matters_beyond_chance(LoopQuestion const& question, RolloutModel const& model, LoopFit const& fit,
+                           std::size_t number) {
   Eigen::VectorXd const& at = fit.fit.parameters;
   auto const& range = model.parameters()[number];
   Eigen::VectorXd inside = at;
@@ -202,7 +204,7 @@ bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t m
       low = low && !is_zero && !parameter.law_at_lower && !parameter.none_at_lower;
       high = high && !parameter.law_at_upper;
     }
-    if ((low || high) && changes_anything(question, model, fit, places[k])) return true;
+    if ((low || high) && matters_beyond_chance(question, model, fit, places[k])) return true;
   }
   return false;
 }
