@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -23,6 +24,7 @@
 #include "engine/infer/all_rows/decision_verdict.hpp"
 #include "engine/infer/all_rows/decision_words.hpp"
 #include "engine/infer/all_rows/joint_decision.hpp"
+#include "engine/infer/all_rows/kept_errors.hpp"
 #include "engine/infer/all_rows/loop_stage.hpp"
 #include "engine/infer/locate/largest_parts.hpp"
 #include "engine/infer/locate/mismatch_map.hpp"
@@ -152,19 +154,21 @@ class AllRowsWork {
     tell_candidates(facts);
     DecisionOutcome of;
     of.neighbours_predict = others_load_it(question.training.front(), facts);
-    // what the rows show beyond chance is there, whether or not its name stands in the loop
-    of.was_adequate = was_adequate(facts, numbers_) && !facts.delay.is_named;
+    // what the rows show beyond chance is there, whether or not its name stands in the loop: unless that is chance
+    DecisionFacts const judged = judged_in_loop(facts, loop);
+    of.was_adequate = was_adequate(judged, numbers_) && !facts.delay.is_named;
     StandingNames const names = standing_names(facts, loop);
     of.has_names = names.any();
     of.is_lower = is_lower(facts, loop, numbers_.least_fall);
-    of.is_complete = facts.is_complete;
-    of.can_tell_little = !facts.steps.empty() && facts.steps.front().visible > numbers_.tolerance;
+    of.is_complete = is_complete(std::span(judged.steps).last(judged.last_steps), numbers_);
+    of.can_tell_little = !facts.steps.empty() && facts.steps.front().could_hide(numbers_.tolerance);
     if (!of.neighbours_predict && of.has_names && of.is_lower) {
-      joint_.augmented_train_relerr = facts.final.train;
-      joint_.augmented_cv_relerr = facts.final.held_out;
-      joint_.augmented_validation_relerr = facts.final.validation;
+      tell_errors_with_names(facts.final);
       tell_effects(decision);
       keep_standing(joint_, facts, loop, names);
+      // the scan's model is not that of these names
+      if (std::isnan(joint_.augmented_train_relerr))
+        if (auto const errors = kept_errors(question, decision, loop)) tell_errors_with_names(*errors);
       if (names.command_delay && !facts.delay.is_named) tell_errors_with_delay(facts);
       // a torque that comes before its motion is a command that the drive follows late: no fault of a channel
       bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
@@ -177,6 +181,12 @@ class AllRowsWork {
     if (joint_.effects.empty() && !of.neighbours_predict) nothing_named(facts);
     if (diagnosis_.verdict == Verdict::data_fault && !joint_.effects.empty())
       diagnosis_.way_out = way_out_of_a_fault(joint_);
+  }
+
+  void tell_errors_with_names(ModelErrors const& errors) {
+    joint_.augmented_train_relerr = errors.train;
+    joint_.augmented_cv_relerr = errors.held_out;
+    joint_.augmented_validation_relerr = errors.validation;
   }
 
   // the delay between command and motor shows in the rows as one of the torque

@@ -55,6 +55,9 @@ struct StepFacts {
   double visible = 0.0;    // over the torque's rms: what most laws must be to come out
   double error = 0.0;      // of the model that the step began with, in training
   CorrectionFacts correction{};
+
+  // an effect of this torque: it would not come out, and what the model leaves is large enough to hold it
+  bool could_hide(double torque) const { return visible > torque && error > torque; }
 };
 
 struct ModelErrors {

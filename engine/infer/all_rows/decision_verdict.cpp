@@ -5,8 +5,9 @@
 namespace torquescope {
 namespace {
 
-bool speaks_against(LawFacts const& law, DecisionNumbers const& numbers) {
-  return law.p <= numbers.alpha && law.refusal != Refusal::too_small && law.refusal != Refusal::smaller;
+// beyond chance, and worth a name
+bool speaks_against(LawFacts const& law) {
+  return law.refusal == Refusal::none || law.refusal == Refusal::at_bound || law.refusal == Refusal::not_predicted;
 }
 
 // a torque of which the error would fall by least_fall
@@ -20,19 +21,17 @@ bool is_worth_naming(double size, double error, DecisionNumbers const& numbers) 
 bool is_adequate(StepFacts const& step, DecisionNumbers const& numbers) {
   bool const counts = is_worth_naming(step.correction.size, step.error, numbers);
   if (counts && step.correction.p <= numbers.correction_alpha()) return false;
-  return std::none_of(step.laws.begin(), step.laws.end(),
-                      [&](LawFacts const& law) { return speaks_against(law, numbers); });
+  return bears_laws_of_clock(step);
 }
 
-bool bears_laws_of_clock(StepFacts const& step, DecisionNumbers const& numbers) {
-  return std::none_of(step.laws.begin(), step.laws.end(),
-                      [&](LawFacts const& law) { return speaks_against(law, numbers); });
+bool bears_laws_of_clock(StepFacts const& step) {
+  return std::none_of(step.laws.begin(), step.laws.end(), speaks_against);
 }
 
 bool is_complete(std::span<StepFacts const> steps, DecisionNumbers const& numbers) {
   if (steps.empty()) return false;
   return std::all_of(steps.begin(), steps.end(), [&](StepFacts const& step) {
-    return is_adequate(step, numbers) && (step.is_of_clock || step.visible <= numbers.tolerance);
+    return is_adequate(step, numbers) && (step.is_of_clock || !step.could_hide(numbers.tolerance));
   });
 }
 

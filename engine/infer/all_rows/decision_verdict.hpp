@@ -3,7 +3,8 @@
 //
 // Adequate   replicates of the model leave as much as the recording: no smooth correction is beyond chance, and no law,
 //            but such as would not lower the error by least_fall, or are smaller than one that is taken
-// Complete   adequate, and a law as large as the tolerance would most likely have come out
+// Complete   adequate, and a law as large as the tolerance would most likely have come out, or is more than the model
+//            leaves
 // Threads    pure functions
 // Source     engine/infer/all_rows/THEORY.md, Adequacy
 
@@ -17,7 +18,7 @@ namespace torquescope {
 
 bool is_adequate(StepFacts const& step, DecisionNumbers const& numbers);
 // no law of the motion is beyond chance and yet refused: laws of a clock would only stand for it
-bool bears_laws_of_clock(StepFacts const& step, DecisionNumbers const& numbers);
+bool bears_laws_of_clock(StepFacts const& step);
 // steps: all that were asked beside one model; none: it is not
 bool is_complete(std::span<StepFacts const> steps, DecisionNumbers const& numbers);
 // of the model without laws

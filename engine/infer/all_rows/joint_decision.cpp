@@ -101,7 +101,7 @@ class Search {
     result_.facts.last_steps = 0;
     if (step(false)) return true;
     auto const& steps = result_.facts.steps;
-    bool const is_borne = result_.facts.last_steps == 0 || bears_laws_of_clock(steps.back(), q_.numbers);
+    bool const is_borne = result_.facts.last_steps == 0 || bears_laws_of_clock(steps.back());
     return is_borne && has_room() && step(true);
   }
 

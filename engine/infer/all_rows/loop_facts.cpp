@@ -23,4 +23,15 @@ bool LoopFacts::is_kept(LoopSubject const& subject) const {
   });
 }
 
+bool LoopFacts::is_chance(LoopSubject const& subject) const {
+  bool was_asked = false;
+  for (auto const& step : steps)
+    for (auto const& move : step.moves) {
+      if (!(move.subject == subject)) continue;
+      if (move.refusal != MoveRefusal::chance) return false;
+      was_asked = true;
+    }
+  return was_asked && counts[1];
+}
+
 }  // namespace torquescope

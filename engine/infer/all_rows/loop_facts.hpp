@@ -97,6 +97,9 @@ struct LoopFacts {
 
   bool decides() const { return reason == LoopReason::decides; }
   bool is_kept(LoopSubject const& subject) const;  // or stands in the place of one
+  // asked of torque and position, and reached by replicates of every model beside which it was; a position that a stiff
+  // loop holds says little of a torque
+  bool is_chance(LoopSubject const& subject) const;
 };
 
 }  // namespace torquescope

@@ -130,12 +130,13 @@ class Ladder {
 
   // Warm from the parent: a law at the start that gains most on the plane, a number of the loop at each; the best to
   // its end, unless it has come to a bound by then
-  LoopFit with(LoopPoint const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
+  LoopFit with(LoopFit const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
     LoopMove const& own = q_.moves[move];
     std::vector<LoopPoint> const points =
-        bends(own) ? begun(parent, move) : std::vector{with_move(q_, parent, move, own.starts[starts.front()])};
+        bends(own) ? begun(parent.point, move)
+                   : std::vector{with_move(q_, parent.point, move, own.starts[starts.front()])};
     LoopFit const best = best_of(points, 1);
-    return best.fit.failed || is_at_bound(q_, best, move) ? best : fitted(q_, best.point);
+    return best.fit.failed || is_at_bound(q_, parent, best, move) ? best : fitted(q_, best.point);
   }
 
   bool predicts_better(LoopErrors const& before, LoopErrors const& after) const {
@@ -144,7 +145,7 @@ class Ladder {
 
   MoveRefusal refusal_of(Member const& parent, LoopFit const& fit, std::size_t move) const {
     if (fit.fit.failed || !(gain_of(parent.fit, fit, q_.counts) > 0.0)) return MoveRefusal::failed_fit;
-    if (is_at_bound(q_, fit, move)) return MoveRefusal::at_bound;
+    if (is_at_bound(q_, parent.fit, fit, move)) return MoveRefusal::at_bound;
     return predicts_better(parent.fit.judged(q_), fit.judged(q_)) ? MoveRefusal::none : MoveRefusal::not_predicted;
   }
 
@@ -158,7 +159,7 @@ class Ladder {
       return i < fits.size() && scan.moves[i].p <= q_.numbers.alpha && scan.moves[i].gain > 0.0;
     };
     parallel_for(fits.size(), q_.threads, [&](std::size_t i, int) {
-      if (is_asked(i)) fits[i] = with(parent.fit.point, scan.moves[i].move, scan.moves[i].starts);
+      if (is_asked(i)) fits[i] = with(parent.fit, scan.moves[i].move, scan.moves[i].starts);
     });
     std::vector<Member> children;
     for (std::size_t i = 0; i < scan.moves.size(); ++i) {
@@ -224,9 +225,8 @@ class Ladder {
         if (without_[i].fit.failed) continue;
         std::size_t const move = best.fit.point.moves[i];
         double const beyond = gain_of(without_[i], best.fit, q_.counts) - best.taken.at(move).level;
-        bool const is_needed = !q_.validation.empty() && predicts_better(without_[i].judged(q_), whole) && beyond > 0.0;
-        bool const is_useless = beyond <= 0.0 || (!q_.validation.empty() && !is_needed);
-        if (!is_useless || (weakest < without_.size() && beyond >= least)) continue;
+        bool const is_needed = beyond > 0.0 && predicts_better(without_[i].judged(q_), whole);
+        if (is_needed || (weakest < without_.size() && beyond >= least)) continue;
         weakest = i;
         least = beyond;
       }
@@ -237,22 +237,27 @@ class Ladder {
     }
   }
 
-  // What stands in the place of a move about as well: D within the chance of either. A fit is made where one step on
-  // the plane comes half way there
+  // What stands in the place of a move about as well: D within the chance of either, or an error that is hardly higher.
+  // A fit is made where one step on the plane gains at least half of the move's own
   std::vector<LoopSubject> rivals_of(Member const& best, std::size_t place, double gain) {
     constexpr double half_way = 0.5;
     std::size_t const move = best.fit.point.moves[place];
     LoopFit const& without = without_[place];
     if (without.fit.failed) return {};
-    std::vector<ScannedMove> const others = scan_moves(q_, without, moves_left(best), step_++).moves;
+    std::vector<std::size_t> asked = moves_left(best);
+    asked.push_back(move);
+    std::vector<ScannedMove> const others = scan_moves(q_, without, asked, step_++).moves;
+    double const own_step =
+        std::find_if(others.begin(), others.end(), [&](ScannedMove const& one) { return one.move == move; })->gain;
     std::vector<char> is_rival(others.size(), 0);
     parallel_for(others.size(), q_.threads, [&](std::size_t i, int) {
       double const least = gain - std::max(best.taken.at(move).level, others[i].level);
-      if (q_.moves[others[i].move].subject == q_.moves[move].subject || others[i].gain < half_way * least) return;
-      LoopFit const fit = with(without.point, others[i].move, others[i].starts);
-      if (fit.fit.failed || is_at_bound(q_, fit, others[i].move)) return;
+      if (q_.moves[others[i].move].subject == q_.moves[move].subject || others[i].gain < half_way * own_step) return;
+      LoopFit const fit = with(without, others[i].move, others[i].starts);
+      if (fit.fit.failed || is_at_bound(q_, without, fit, others[i].move)) return;
       double const own = gain_of(without, fit, q_.counts);
-      is_rival[i] = own > 0.0 && own >= least ? 1 : 0;
+      bool const is_as_good = own >= least || !predicts_better(fit.judged(q_), best.fit.judged(q_));
+      is_rival[i] = own > 0.0 && is_as_good ? 1 : 0;
     });
     std::vector<LoopSubject> rivals;
     for (std::size_t i = 0; i < others.size(); ++i)

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/fit/statistics/chi_squared.hpp"
 #include "engine/simulate/rollout/drive_law.hpp"
 #include "engine/simulate/rollout/fit_slope.hpp"
 
@@ -44,6 +43,17 @@ LoopPoint moved_to(LoopPoint point, Eigen::VectorXd const& parameters) {
     for (auto const& parameter : law.effect->parameters()) law.values[parameter.name] = parameters[at++];
   for (LoopKey const key : point.loop.free) point.loop.values[key] = parameters[at++];
   return point;
+}
+
+LmOptions options_of(LoopQuestion const& question, LoopSearch search) {
+  LmOptions options;
+  options.fits_starts = question.fits_starts;
+  constexpr std::int64_t a_look = 2, a_little = 8;
+  if (search != LoopSearch::to_its_end) {
+    options.iterations = search == LoopSearch::a_look ? a_look : a_little;
+    options.passes = 1;
+  }
+  return options;
 }
 
 LoopErrors errors_of(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels const& counts,
@@ -124,13 +134,7 @@ LoopPoint without_move(LoopQuestion const& question, LoopPoint const& point, std
 }
 
 LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search, int threads) {
-  LmOptions options;
-  options.fits_starts = question.fits_starts;
-  constexpr std::int64_t a_look = 2, a_little = 8;
-  if (search != LoopSearch::to_its_end) {
-    options.iterations = search == LoopSearch::a_look ? a_look : a_little;
-    options.passes = 1;
-  }
+  LmOptions const options = options_of(question, search);
   RolloutModel const begun = from.model(question);
   LoopFit result{from, fit_rollouts_from(begun, question.training, question.counts, from.starts, options, threads)};
   if (result.fit.failed) return result;
@@ -168,28 +172,25 @@ std::vector<LoopNumber> numbers_of(LoopQuestion const& question, LoopFit const& 
 
 namespace {
 
-// Whether a number at the end of its range matters beyond chance. The rest of a spring that hardly hardens does not.
-// D of one number is chi-squared (Wilks 1938, doi:10.1214/aoms/1177732360). The others are not fitted again:
-// D is too large, and a bound is found rather too often
-bool matters_beyond_chance(LoopQuestion const& question, RolloutModel const& model, LoopFit const& fit,
-                           std::size_t number) {
-  Eigen::VectorXd const& at = fit.fit.parameters;
+// Whether a move says what it says because one of its numbers is at the end of its range: with that number in the
+// middle, and all others fitted again, more than least_fall of its D is gone. The rest of a spring that hardly hardens
+// does not matter
+bool hangs_on(LoopQuestion const& question, LoopFit const& without, LoopFit const& fit, RolloutModel const& model,
+              std::size_t number) {
   auto const& range = model.parameters()[number];
-  Eigen::VectorXd inside = at;
-  inside[static_cast<Index>(number)] = 0.5 * (range.lower + range.upper);
-  RolloutTask task{question.training, {}, question.counts};
-  for (auto const& track : question.training) task.structures.push_back(model.structure_for(at, track.tick_s()));
-  std::vector<RolloutTrial> const trials{model.trial(at), model.trial(inside)};
-  auto const sums = sums_of_squares(task, trials, 1);
-  double gain = 0.0;
-  for (std::size_t channel = 0; channel < n_channels; ++channel)
-    if (question.counts[channel]) gain += fit.fit.effective[channel] * std::log(sums[1][channel] / sums[0][channel]);
-  return !(chi_squared_tail(std::abs(gain), 1) > question.numbers.alpha);
+  double const middle = range.is_logarithmic ? std::sqrt(range.lower * range.upper) : 0.5 * (range.lower + range.upper);
+  LoopFit inside{fit.point, fit_rollouts_from(model.with_held(number, middle), question.training, question.counts,
+                                              fit.point.starts, options_of(question, LoopSearch::to_its_end), 1)};
+  if (inside.fit.failed) return true;
+  // n_eff differs from fit to fit, and squares are compared here
+  inside.fit.effective = fit.fit.effective;
+  double const least = (1.0 - question.numbers.least_fall) * gain_of(without, fit, question.counts);
+  return gain_of(without, inside, question.counts) < least;
 }
 
 }  // namespace
 
-bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t move) {
+bool is_at_bound(LoopQuestion const& question, LoopFit const& without, LoopFit const& fit, std::size_t move) {
   RolloutModel const model = fit.point.model(question);
   auto const places = places_of(question, fit.point, move);
   LoopSubject const& subject = question.moves[move].subject;
@@ -204,7 +205,7 @@ bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t m
       low = low && !is_zero && !parameter.law_at_lower && !parameter.none_at_lower;
       high = high && !parameter.law_at_upper;
     }
-    if ((low || high) && matters_beyond_chance(question, model, fit, places[k])) return true;
+    if ((low || high) && hangs_on(question, without, fit, model, places[k])) return true;
   }
   return false;
 }

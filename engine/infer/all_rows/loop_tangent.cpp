@@ -8,7 +8,7 @@ namespace torquescope {
 namespace {
 
 using Eigen::Index;
-constexpr double width = 8e-3;
+constexpr double slope_width = 8e-3;
 
 // of one channel, all tracks below each other
 Eigen::MatrixXd stacked(std::vector<TrackResiduals> const& residuals, std::size_t channel) {
@@ -33,7 +33,7 @@ struct Sides {
 };
 
 Sides sides_of(FitUnknowns const& unknowns, FitPoint const& at, Index parameter) {
-  double const scale = unknowns.scale(at, parameter), h = width * scale;
+  double const scale = unknowns.scale(at, parameter), h = slope_width * scale;
   Sides sides{at, at};
   sides.more[parameter] = unknowns.clipped(parameter, sides.more[parameter] + h);
   sides.less[parameter] = unknowns.clipped(parameter, sides.less[parameter] - h);

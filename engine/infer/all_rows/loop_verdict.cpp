@@ -21,7 +21,7 @@ StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop) {
   for (std::size_t i = 0; i < scan.accepted.size(); ++i) {
     Effect const* const law = scan.accepted[i].effect;
     // other recordings say nothing of a clock: only another explanation speaks against it
-    names.laws[i] = loop.is_kept({law}) || (is_clock_bound(*law) && !has_command);
+    names.laws[i] = loop.is_kept({law}) || (is_clock_bound(*law) && !has_command && !loop.is_chance({law}));
   }
   LoopSubject const delay{nullptr, LoopKey::command_delay_s};
   bool const asks_command = loop.form != LoopForm::identified;
@@ -41,6 +41,14 @@ StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop) {
     if (std::none_of(scan.accepted.begin(), scan.accepted.end(), is_told)) names.added.push_back(move);
   }
   return names;
+}
+
+DecisionFacts judged_in_loop(DecisionFacts scan, LoopFacts const& loop) {
+  if (!loop.decides()) return scan;
+  for (auto& step : scan.steps)
+    for (auto& law : step.laws)
+      if (loop.is_chance({law.effect})) law.refusal = Refusal::chance;
+  return scan;
 }
 
 }  // namespace torquescope

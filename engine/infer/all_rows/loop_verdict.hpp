@@ -4,7 +4,8 @@
 // Decides    where simulations do not decide, the scan's names stand. Where they do: a law of the scan stands if the
 //            ladder kept it, or cannot tell it from one it kept; what it kept beside is a name as well
 // Clock      other recordings do not judge a law of an instant or a clock: one that was not kept stands all the same,
-//            unless something on the command side was kept, which may be what it stood for
+//            unless simulations call it chance, or kept something on the command side, which it may have stood for
+// Chance     a law that simulations asked and replicates reached says nothing against the scan's model, either
 // Delay      a command delay that was kept and the scan's delay are one thing, "delay"; where the command side was
 //            asked and none was kept, the scan's delay is none
 // Threads    pure function
@@ -29,5 +30,7 @@ struct StandingNames {
 };
 
 StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop);
+// the scan's facts, where what simulations call chance is chance
+DecisionFacts judged_in_loop(DecisionFacts scan, LoopFacts const& loop);
 
 }  // namespace torquescope

@@ -167,6 +167,13 @@ Eigen::VectorXd RolloutModel::start() const {
   return start;
 }
 
+RolloutModel RolloutModel::with_held(std::size_t parameter, double value) const {
+  RolloutModel held = *this;
+  RolloutParameter& one = held.parameters_[parameter];
+  one.start = one.lower = one.upper = value;
+  return held;
+}
+
 std::vector<std::string> RolloutModel::names() const {
   std::vector<std::string> names;
   for (auto const& one : parameters_) names.push_back(one.name);

@@ -53,6 +53,8 @@ class RolloutModel {
   std::size_t size() const { return parameters_.size(); }
   Eigen::VectorXd start() const;
   std::vector<std::string> names() const;
+  // the same model with one number that no fit moves
+  RolloutModel with_held(std::size_t parameter, double value) const;
   RolloutStructure const& structure() const { return structure_; }
   LoopSetting const& loop() const { return loop_; }
   // the step of the integration follows the start; of another vector where that is fixed

@@ -70,7 +70,7 @@ TEST(DecisionVerdict, ALawThatBoundsRefuseSpeaksAgainstTheModel) {
   EXPECT_TRUE(is_adequate(step_with({law(0.01, Refusal::smaller)}, 0.01), numbers));
   EXPECT_FALSE(is_adequate(step_with({law(0.01, Refusal::at_bound)}, 0.01), numbers));
   EXPECT_FALSE(is_adequate(step_with({law(0.01, Refusal::not_predicted)}, 0.01), numbers));
-  EXPECT_FALSE(bears_laws_of_clock(step_with({law(0.01, Refusal::at_bound)}, 0.01), numbers));
+  EXPECT_FALSE(bears_laws_of_clock(step_with({law(0.01, Refusal::at_bound)}, 0.01)));
 }
 
 TEST(DecisionVerdict, ASmoothCorrectionCountsOnlyWithASize) {
@@ -81,7 +81,7 @@ TEST(DecisionVerdict, ASmoothCorrectionCountsOnlyWithASize) {
   EXPECT_TRUE(is_adequate(step, numbers));
   step.correction.size = 2.0 * numbers.delta;
   EXPECT_FALSE(is_adequate(step, numbers));
-  EXPECT_TRUE(bears_laws_of_clock(step, numbers));
+  EXPECT_TRUE(bears_laws_of_clock(step));
   // beside an error ten times as large it would not lower it by a twentieth
   step.error = 20.0 * numbers.delta;
   EXPECT_TRUE(is_adequate(step, numbers));
@@ -93,6 +93,10 @@ TEST(DecisionVerdict, AModelIsCompleteOnlyWhereALawWouldHaveShown) {
   EXPECT_TRUE(is_complete(steps, numbers));
   EXPECT_FALSE(is_complete({}, numbers));
   steps.front().visible = 2.0 * numbers.tolerance;
+  // so large an effect is more than all that the model leaves
+  steps.front().error = 0.5 * numbers.tolerance;
+  EXPECT_TRUE(is_complete(steps, numbers));
+  steps.front().error = 2.0 * numbers.tolerance;
   EXPECT_FALSE(is_complete(steps, numbers));
   steps.front().is_of_clock = true;  // short folds see less
   EXPECT_TRUE(is_complete(steps, numbers));

@@ -23,6 +23,7 @@ constexpr double rate_hz = 100.0, encoder_step = 1.5e-3, turn = 2.0 * std::numbe
 
 struct Planted {
   double speed_limit = 0.0, delay_s = 0.0, cogging = 0.0, spring = 0.0;  // 0: none
+  double hardening = 0.0, rest = 0.0;                                    // of the spring
   std::uint64_t seed = 1;
 };
 
@@ -53,7 +54,10 @@ RolloutTrack recorded(Planted const& planted, double pace) {
   joint.backward = -0.1;
   joint.offset = 0.05;
   if (planted.cogging > 0.0) joint.smooth = [=](double, double q) { return planted.cogging * std::sin(7.0 * q + 0.4); };
-  if (planted.spring > 0.0) joint.smooth = [=](double, double q) { return planted.spring * q; };
+  if (planted.spring > 0.0)
+    joint.smooth = [=](double, double q) {
+      return planted.spring * (q + planted.hardening * std::pow(q - planted.rest, 3));
+    };
   PlainController controller;
   controller.form = "p";
   controller.kp = 5.0;
@@ -169,33 +173,43 @@ TEST(LoopLadder, SaysThatAModelPredictsNothing) {
   EXPECT_NE(asked.climbed(1).reason, LoopReason::decides);
 }
 
+// the spring fitted to a planted one, its rest put to the lower end of the travel
+struct FittedSpring {
+  Asked asked;
+  LoopQuestion question;
+  std::size_t move;
+  LoopFit without, with;
+
+  explicit FittedSpring(Planted const& planted) : asked(asked_of(planted)), question(asked.question(1)) {
+    move = static_cast<std::size_t>(std::find_if(question.moves.begin(), question.moves.end(),
+                                                 [](auto const& one) { return name_of(one.subject) == "spring"; }) -
+                                    question.moves.begin());
+    without = fitted(question, base_point(question));
+    with = fitted(question, with_move(question, without.point, move, question.moves[move].starts.front()));
+  }
+  Eigen::Index place(std::string const& name) const {
+    auto const numbers = with.point.model(question).parameters();
+    auto const found = std::find_if(numbers.begin(), numbers.end(), [&](auto const& one) { return one.name == name; });
+    return found - numbers.begin();
+  }
+  double value(std::string const& name) const { return with.fit.parameters[place(name)]; }
+  double lowest(std::string const& name) const {
+    return with.point.model(question).parameters()[static_cast<std::size_t>(place(name))].lower;
+  }
+};
+
 // a spring whose rest is at the end of the travel: it says nothing of one that hardly hardens
-TEST(LoopLadder, ANumberIsAtItsBoundWhereItMattersBeyondChance) {
-  Asked const asked = asked_of({.spring = 0.3});
-  LoopQuestion const question = asked.question(1);
-  auto const spring =
-      static_cast<std::size_t>(std::find_if(question.moves.begin(), question.moves.end(),
-                                            [](LoopMove const& move) { return name_of(move.subject) == "spring"; }) -
-                               question.moves.begin());
-  ASSERT_LT(spring, question.moves.size());
-  LoopPoint const begun = with_move(question, base_point(question), spring, question.moves[spring].starts.front());
-  LoopFit fit = fitted(question, begun);
-  ASSERT_FALSE(fit.fit.failed);
-  auto const numbers = fit.point.model(question).parameters();
-  auto const at = [&](std::string const& name) {
-    auto const place = std::find_if(numbers.begin(), numbers.end(), [&](auto const& one) { return one.name == name; });
-    return place - numbers.begin();
-  };
-  EXPECT_NEAR(fit.fit.parameters[at("spring")], 0.3, 0.02);
-  fit.fit.parameters[at("spring_rest")] = numbers[static_cast<std::size_t>(at("spring_rest"))].lower;
-  double const hardest = numbers[static_cast<std::size_t>(at("spring_hardening"))].upper;
-  auto const is_bound = [&](double share) {
-    fit.fit.parameters[at("spring_hardening")] = share * hardest;
-    return is_at_bound(question, fit, spring);
-  };
-  EXPECT_FALSE(is_bound(0.0));
-  EXPECT_FALSE(is_bound(1e-4));
-  EXPECT_TRUE(is_bound(0.5));
+TEST(LoopLadder, ANumberIsAtItsBoundWhereTheGainHangsOnIt) {
+  FittedSpring straight({.spring = 0.3});
+  ASSERT_FALSE(straight.with.fit.failed);
+  EXPECT_NEAR(straight.value("spring"), 0.3, 0.02);
+  straight.with.fit.parameters[straight.place("spring_rest")] = straight.lowest("spring_rest");
+  EXPECT_FALSE(is_at_bound(straight.question, straight.without, straight.with, straight.move));
+
+  FittedSpring const bent({.spring = 0.2, .hardening = 0.4, .rest = -2.5});
+  ASSERT_FALSE(bent.with.fit.failed);
+  EXPECT_DOUBLE_EQ(bent.value("spring_rest"), bent.lowest("spring_rest"));
+  EXPECT_TRUE(is_at_bound(bent.question, bent.without, bent.with, bent.move));
 }
 
 std::vector<double> numbers_in(LoopFacts const& facts) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/infer/all_rows/decision_verdict.hpp"
+
 using namespace torquescope;
 
 namespace loop_verdict_test {
@@ -74,6 +76,42 @@ TEST(LoopVerdict, ALawOfAClockFallsOnlyToTheCommandSide) {
   auto const scan = scanned({"friction_drift"}, false);
   EXPECT_TRUE(standing_names(scan, simulated({})).laws[0]);
   EXPECT_FALSE(standing_names(scan, simulated({kept(key(LoopKey::goal_speed_limit))})).laws[0]);
+}
+
+LoopFacts asked(LoopFacts facts, std::vector<MoveFacts> const& moves) {
+  facts.steps.push_back({{}, 48, moves});
+  return facts;
+}
+
+TEST(LoopVerdict, WhatSimulationsCallChanceIsNoName) {
+  auto const scan = scanned({"friction_drift"}, false);
+  MoveFacts drift{law("friction_drift")};
+  drift.refusal = MoveRefusal::chance;
+  LoopFacts const once = asked(simulated({}), {drift});
+  EXPECT_FALSE(standing_names(scan, once).laws[0]);
+  // beside another model it was not
+  drift.refusal = MoveRefusal::not_predicted;
+  EXPECT_TRUE(standing_names(scan, asked(once, {drift})).laws[0]);
+}
+
+TEST(LoopVerdict, WhatSimulationsCallChanceDoesNotSpeakAgainstTheModel) {
+  DecisionNumbers const numbers;
+  DecisionFacts scan = scanned({}, false);
+  LawFacts refused{find_effect("spring")};
+  refused.refusal = Refusal::not_predicted;
+  scan.steps.push_back({{refused}});
+  MoveFacts spring{law("spring")};
+  spring.refusal = MoveRefusal::chance;
+  LoopFacts const loop = asked(simulated({}), {spring});
+  EXPECT_FALSE(was_adequate(scan, numbers));
+  EXPECT_TRUE(was_adequate(judged_in_loop(scan, loop), numbers));
+  EXPECT_FALSE(was_adequate(judged_in_loop(scan, simulated({})), numbers));
+  LoopFacts of_position = loop;
+  of_position.counts = {true, false};
+  EXPECT_FALSE(was_adequate(judged_in_loop(scan, of_position), numbers));
+  LoopFacts undecided = loop;
+  undecided.reason = LoopReason::diverges;
+  EXPECT_FALSE(was_adequate(judged_in_loop(scan, undecided), numbers));
 }
 
 TEST(LoopVerdict, ADelayThatNoSimulationBearsOutIsNone) {
