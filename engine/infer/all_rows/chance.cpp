@@ -14,6 +14,18 @@ double value_of_chance(std::vector<double> values, double alpha) {
   return values[std::min(values.size(), std::max<std::size_t>(1, place)) - 1];
 }
 
+namespace {
+
+// what each law's D is counted in, from the mean squares of its D in replicates
+Eigen::ArrayXd units_of(Eigen::ArrayXd const& mean_squares) {
+  constexpr double one_parameter = 3.84;  // chi-squared of one degree of freedom, 95 %
+  return one_parameter + mean_squares.max(0.0).sqrt();
+}
+
+Eigen::ArrayXd units_in(Eigen::MatrixXd const& gains) { return units_of(gains.array().square().rowwise().mean()); }
+
+}  // namespace
+
 void Chance::add(Eigen::MatrixXd const& further) {
   if (gains.cols() == 0) {
     gains = further;
@@ -26,17 +38,17 @@ void Chance::add(Eigen::MatrixXd const& further) {
 
 std::vector<double> Chance::largest() const {
   Eigen::Index const m = gains.cols();
-  Eigen::ArrayXd const sum = gains.rowwise().sum().array();
+  Eigen::ArrayXd const squares = gains.array().square().rowwise().sum();
   std::vector<double> largest;
   for (Eigen::Index t = 0; t < m; ++t) {
-    Eigen::ArrayXd const of_others = (sum - gains.col(t).array()) / static_cast<double>(m - 1);
-    largest.push_back((gains.col(t).array() / (1.0 + of_others)).maxCoeff());
+    Eigen::ArrayXd const own = gains.col(t).array();
+    largest.push_back((own / units_of((squares - own.square()) / static_cast<double>(m - 1))).maxCoeff());
   }
   return largest;
 }
 
 Eigen::VectorXd Chance::relative(Eigen::VectorXd const& gains_of_recording) const {
-  return (gains_of_recording.array() / (1.0 + gains.rowwise().mean().array())).matrix();
+  return (gains_of_recording.array() / units_in(gains)).matrix();
 }
 
 Eigen::VectorXd Chance::p(Eigen::VectorXd const& gains_of_recording) const {
@@ -54,7 +66,7 @@ Eigen::VectorXd Chance::p(Eigen::VectorXd const& gains_of_recording) const {
 
 Eigen::VectorXd Chance::needed(double alpha) const {
   TORQUESCOPE_EXPECT(gains.cols() > 1 && gains.rows() > 0);
-  return (1.0 + gains.rowwise().mean().array()) * value_of_chance(largest(), alpha);
+  return units_in(gains) * value_of_chance(largest(), alpha);
 }
 
 Eigen::VectorXd Chance::level(double alpha) const {

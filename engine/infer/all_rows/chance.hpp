@@ -1,13 +1,16 @@
 #pragma once
 // What chance does to the gains of a catalogue: D of every law in replicates of the model, and p of a recording's.
 //
-// Equation   T = D / (1 + mean of the law's D in replicates): laws that gain much by chance count less. A replicate's
-//            mean is that of the others. p = (1 + replicates whose largest T over the catalogue reaches it) / (M + 1)
+// Equation   T = D / (c + s): s, the rms of the law's D in replicates; c = 3.84, what one parameter reaches by chance
+//            once in twenty. Laws that gain much by chance count less, and the little that others gain decides nothing.
+//            A replicate's s are those of the others.
+//            p = (1 + replicates whose largest T over the catalogue reaches it) / (M + 1)
 // Level      of a law by itself: D that a share alpha of its replicates reach
 // Shapes     gains: laws x replicates
 // Threads    plain record, pure functions
-// Source     max-T: Westfall, Young 1993, Resampling-Based Multiple Testing, ISBN 978-0-471-55761-6; p: Davison,
-//            Hinkley 1997, section 4.2, doi:10.1017/CBO9780511802843
+// Source     max-T: Westfall, Young 1993, Resampling-Based Multiple Testing, ISBN 978-0-471-55761-6; a constant beside
+//            the scale: Tusher, Tibshirani, Chu 2001, doi:10.1073/pnas.091062498; c: Wilks 1938,
+//            doi:10.1214/aoms/1177732360; p: Davison, Hinkley 1997, section 4.2, doi:10.1017/CBO9780511802843
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -241,6 +241,19 @@ class Search {
     return found == levels_.end() ? 0.0 : found->second;
   }
 
+  // D that chance gives a rival beside the model that the law was taken beside; later models give it their own
+  double level_beside(Effect const* law, Effect const* rival) const {
+    auto const of = [](StepFacts const& step, Effect const* effect) {
+      return std::find_if(step.laws.begin(), step.laws.end(),
+                          [&](LawFacts const& one) { return one.effect == effect; });
+    };
+    for (auto const& step : result_.facts.steps) {
+      auto const taken = of(step, law), asked = of(step, rival);
+      if (taken != step.laws.end() && taken->refusal == Refusal::none && asked != step.laws.end()) return asked->level;
+    }
+    return level_of(rival);
+  }
+
   // laws taken early that later ones, or the delay beside them, have made useless
   void drop_useless() {
     while (!accepted_.empty()) {
@@ -265,6 +278,9 @@ class Search {
     accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(law));
   }
 
+  // an error on judged rows, by what is worth a name
+  bool is_higher(double judged) const { return (1.0 - q_.numbers.least_fall) * judged > judged_; }
+
   // laws that could stand in its place about as well; other recordings say which of them stands there
   void find_rivals(std::size_t law) {
     Effect const* const effect = accepted_[law].effect;
@@ -284,8 +300,10 @@ class Search {
     auto tried = tried_laws(q_, trial_model(without, effects, score, judged), questions, findings,
                             first_of(by_value(gains_of(findings)), q_.numbers.refined), kind);
     std::erase_if(tried, [&](TriedLaw const& one) {
-      double const own = level_of(one.facts.effect), least = gain - std::max(level_of(effect), own);
-      return one.facts.refusal != Refusal::none || one.facts.gain < std::max(own, least);
+      double const own = level_beside(effect, one.facts.effect);
+      double const least = gain - std::max(level_beside(effect, effect), own);
+      bool const is_as_good = one.facts.gain >= least || !is_higher(one.facts.judged_after);
+      return one.facts.refusal != Refusal::none || one.facts.gain < own || !is_as_good;
     });
     accepted_[law].gain = gain;
     for (auto const& one : tried) accepted_[law].rivals.push_back(one.facts.effect);
@@ -303,8 +321,7 @@ class Search {
   std::vector<TriedLaw>::iterator weight_in_place_of(Effect const& effect, std::vector<TriedLaw>& tried) const {
     if (effect.family() != EffectFamily::static_position || effect.is_weight()) return tried.end();
     return std::find_if(tried.begin(), tried.end(), [&](TriedLaw const& one) {
-      bool const is_refuted =
-          !rows().validation.empty() && (1.0 - q_.numbers.least_fall) * one.facts.judged_after > judged_;
+      bool const is_refuted = !rows().validation.empty() && is_higher(one.facts.judged_after);
       return one.facts.effect->is_weight() && !is_refuted;
     });
   }

@@ -2,7 +2,7 @@
 // What the rows leave beside the effects that simulations kept, where these are not the scan's.
 //
 // Fitted     with the shapes of the simulations; sizes, baseline and delay are those of the rows
-// Errors     of the rows (decision_facts.hpp); none where something on the command side was kept, which rows do not show
+// Errors     of the rows (decision_facts.hpp); none where something on the command side was kept: rows do not show it
 // Threads    pure function
 // Source     engine/infer/all_rows/THEORY.md, In the loop
 
