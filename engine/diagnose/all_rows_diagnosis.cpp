@@ -99,6 +99,7 @@ class AllRowsWork {
     question.most_laws = input_.selection.max_effects;
     question.numbers = numbers_;
     question.numbers.replicates = replicates_for(numbers_);
+    question.weighs_rows = !further_;  // an arm pools the rows of its joints
     question.seed = input_.seed;
     question.threads = input_.threads;
     question.progress = [&](char const* stage, std::size_t done, std::size_t total) {

@@ -65,7 +65,10 @@ void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts c
 }
 
 bool is_lower(DecisionFacts const& scan, LoopFacts const& loop, double least_fall) {
-  if (!loop.decides() || loop.kept.empty()) return scan.final.judged() <= (1.0 - least_fall) * scan.baseline.judged();
+  // rows that say little may not be predicted worse, either
+  if (!loop.decides() || loop.kept.empty())
+    return scan.weighed_final.judged() <= (1.0 - least_fall) * scan.weighed_baseline.judged() &&
+           scan.final.judged() <= scan.baseline.judged();
   LoopErrors const& before = loop.has_validation ? loop.base_validation : loop.base_train;
   LoopErrors const& after = loop.has_validation ? loop.final_validation : loop.final_train;
   return after.both() <= (1.0 - least_fall) * before.both();

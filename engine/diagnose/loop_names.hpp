@@ -14,7 +14,8 @@ namespace torquescope {
 // joint: with a name for each effect that the scan took, then its delay if that is named
 void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts const& loop, StandingNames const& names);
 
-// whether what is left falls by least_fall: of the simulations where they decided, else of the judged rows
+// whether what is left falls by least_fall: of the simulations where they decided, else of the judged rows as they are
+// weighed, where the error of all rows alike does not rise
 bool is_lower(DecisionFacts const& scan, LoopFacts const& loop, double least_fall);
 
 }  // namespace torquescope

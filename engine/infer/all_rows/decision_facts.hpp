@@ -2,7 +2,7 @@
 // What a search found out about one joint: numbers and enums, from which the verdict and every sentence are made.
 //
 // Errors     ||residual|| / ||torque|| over all rows of the filtered torque, where no sample is set aside; inside the
-//            interval of static friction a residual is zero
+//            interval of static friction a residual is zero. Those of steps and effects are of weighed rows
 // Units      SI; shares are fractions of 1; NaN: not measured
 // Threads    plain records
 // Source     engine/infer/all_rows/THEORY.md, Rows
@@ -88,7 +88,8 @@ struct DecisionFacts {
   std::size_t last_steps = 0;  // so many of the last were asked beside the final model
   bool is_complete = false;    // the final model: decision_verdict.hpp
   std::vector<LawFacts> accepted{};
-  ModelErrors baseline{}, final{};
+  ModelErrors baseline{}, final{};                  // all rows alike
+  ModelErrors weighed_baseline{}, weighed_final{};  // of the rows as they are decided on
   double baseline_late_s = 0.0;
   DelayFacts delay{};
   double torque_rms = 0.0;

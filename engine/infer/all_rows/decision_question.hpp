@@ -22,6 +22,7 @@ struct DecisionQuestion {
   Section const& filter_section;
   std::vector<Effect const*> laws{};
   std::size_t most_laws = 5;
+  bool weighs_rows = true;  // by what replicates leave there (row_weights.hpp); else all alike
   DecisionNumbers numbers{};
   std::uint64_t seed = 0;
   int threads = 1;

@@ -35,6 +35,11 @@ double JointStrips::torque_rms() const {
   return std::sqrt(training_energy / static_cast<double>(rows));
 }
 
+void count_torque(JointStrips& rows) {
+  rows.training_energy = torque_energy(rows.training);
+  rows.validation_energy = torque_energy(rows.validation);
+}
+
 JointStrips joint_strips(DecisionQuestion const& question) {
   JointStrips rows;
   auto const strips = [&](std::span<Recording const> recordings) {
@@ -45,8 +50,7 @@ JointStrips joint_strips(DecisionQuestion const& question) {
   };
   rows.training = strips(question.training);
   rows.validation = strips(question.validation);
-  rows.training_energy = torque_energy(rows.training);
-  rows.validation_energy = torque_energy(rows.validation);
+  count_torque(rows);
   return rows;
 }
 

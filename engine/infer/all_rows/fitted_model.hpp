@@ -21,6 +21,8 @@ struct JointStrips {
   double torque_rms() const;                              // in training
 };
 
+// both energies anew, of weighed rows
+void count_torque(JointStrips& rows);
 // Errors     Error 78, 65 as strip_filters()
 JointStrips joint_strips(DecisionQuestion const& question);
 

@@ -12,6 +12,7 @@
 #include "engine/infer/all_rows/delay_decision.hpp"
 #include "engine/infer/all_rows/law_trial.hpp"
 #include "engine/infer/all_rows/replicate_gains.hpp"
+#include "engine/infer/all_rows/row_weights.hpp"
 #include "engine/infer/all_rows/smooth_correction.hpp"
 #include "engine/infer/all_rows/sticking_shape.hpp"
 #include "engine/simulate/rollout/effective_samples.hpp"
@@ -32,7 +33,11 @@ class Search {
   explicit Search(DecisionQuestion const& question) : q_(question) { result_.rows = joint_strips(question); }
 
   JointDecision run() && {
-    FittedModel const plain = fitted_model(result_.rows, q_.regressor, {}, nullptr, free_delay());
+    FittedModel plain = fitted_model(result_.rows, q_.regressor, {}, nullptr, free_delay());
+    if (q_.weighs_rows) {
+      result_.rows = weighed_rows(q_, std::move(result_.rows), fitted_with({}, *plain.fitted));
+      plain = fitted_model(result_.rows, q_.regressor, {}, nullptr, free_delay());
+    }
     result_.baseline = fitted_with({}, *plain.fitted);
     result_.final = fitted_with({}, *plain.fitted);
     judged_ = errors_of(rows(), result_.final).judged();
@@ -363,13 +368,28 @@ class Search {
     facts.accepted = accepted_;
     facts.delay = decided_delay(q_, rows(), result_.final, chance_of_delay_);
     facts.delay.is_named = facts.delay.is_named && facts.is_complete;
-    // a delay that is named is a part of what the names explain
-    facts.baseline = facts.delay.is_named ? errors_of(rows(), at_allowed_delay(rows(), result_.baseline))
-                                          : errors_of(rows(), result_.baseline);
+    facts.weighed_final = errors_of(rows(), result_.final);
+    facts.parameters = numbers_of(result_.final);
     facts.baseline_late_s = result_.baseline.fitted->chosen().late_s;
     facts.baseline_parameters = numbers_of(result_.baseline);
+    // a delay that is named is a part of what the names explain
+    if (facts.delay.is_named) result_.baseline = at_allowed_delay(rows(), result_.baseline);
+    facts.weighed_baseline = errors_of(rows(), result_.baseline);
+    count_all_rows_alike();
+    facts.baseline = errors_of(rows(), result_.baseline);
     facts.final = errors_of(rows(), result_.final);
-    facts.parameters = numbers_of(result_.final);
+    facts.delay.judged_without = errors_of(rows(), at_allowed_delay(rows(), result_.final)).judged();
+  }
+
+  // what is told of the models is told of all rows alike
+  void count_all_rows_alike() {
+    if (!q_.weighs_rows) return;
+    for (auto* left : {&result_.baseline_replicates, &result_.final_replicates})
+      if (auto const& weight = rows().training.front().row_weight; weight.size() == left->rows())
+        *left = weight.cwiseInverse().asDiagonal() * *left;
+    result_.rows = unweighed_rows(std::move(result_.rows));
+    result_.baseline = fitted_alike(rows(), result_.baseline);
+    result_.final = fitted_alike(rows(), result_.final);
   }
 
   DecisionQuestion const& q_;

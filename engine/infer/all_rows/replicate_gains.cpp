@@ -163,7 +163,11 @@ class Replicates {
     for (std::size_t i = 0; i < noise_.size(); ++i) {
       auto const rows = static_cast<Eigen::Index>(recording().strips()[i].rows.size());
       auto const address = static_cast<std::uint32_t>(replicate * noise_.size() + i);
-      all.segment(row, rows) = drawn_noise(noise_[i], rows, {q_.seed, task_.step, address});
+      Eigen::VectorXd noise = drawn_noise(noise_[i], rows, {q_.seed, task_.step, address});
+      // as strong in all as the noise of the weighed rows
+      if (Eigen::VectorXd const& weight = recording().strips()[i].row_weight; weight.size() > 0)
+        noise = weight.cwiseProduct(noise) * std::sqrt(static_cast<double>(rows)) / weight.norm();
+      all.segment(row, rows) = noise;
       row += rows;
     }
     return all;

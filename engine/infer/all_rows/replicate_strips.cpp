@@ -146,6 +146,7 @@ std::vector<Strip> ReplicateMaker::simulated(std::size_t first, std::size_t coun
     if (given_.size() > 0) recording.torque += torque_to_hold(given_);
     all[i] = strip_of(recording, strip_->filters, strip_->resolution);
     all[i].rows = strip_->rows;
+    all[i].row_weight = strip_->row_weight;
     all[i].beside = strip_->beside;
   });
   return all;

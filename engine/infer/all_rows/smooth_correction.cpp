@@ -23,6 +23,17 @@ Eigen::VectorXd at_rows(FittedStrips const& fitted, std::function<Eigen::VectorX
   return all;
 }
 
+Eigen::MatrixXd weighed(FittedStrips const& fitted, Eigen::MatrixXd columns) {
+  Eigen::Index first = 0;
+  for (auto const& strip : fitted.strips()) {
+    auto const rows = static_cast<Eigen::Index>(strip.rows.size());
+    if (strip.row_weight.size() > 0)
+      columns.middleRows(first, rows) = strip.row_weight.asDiagonal() * columns.middleRows(first, rows);
+    first += rows;
+  }
+  return columns;
+}
+
 }  // namespace
 
 SmoothCorrection best_correction(FittedStrips const& fitted, Score const& score, Eigen::Index signal) {
@@ -45,8 +56,8 @@ SmoothCorrection best_correction(FittedStrips const& fitted, Score const& score,
       {SignatureAxis::time, hats(time, knots)}};
   SmoothCorrection best;
   for (auto const& [axis, columns] : axes) {
-    OrthonormalGroup const group =
-        orthonormal_group(columns, score.basis(), std::vector<bool>(static_cast<std::size_t>(columns.cols()), false));
+    OrthonormalGroup const group = orthonormal_group(
+        weighed(fitted, columns), score.basis(), std::vector<bool>(static_cast<std::size_t>(columns.cols()), false));
     double const gain = score.gain(group, signal);
     if (gain <= best.gain) continue;
     double const energy = (group.q.transpose() * score.signals().col(signal)).squaredNorm();

@@ -248,12 +248,21 @@ Eigen::Index Strip::memory() const {
   return static_cast<Eigen::Index>(std::ceil(cutoff_hz > 0.0 ? periods * rate_hz / cutoff_hz : periods));
 }
 
+namespace {
+
+Eigen::MatrixXd weighed(Strip const& strip, Eigen::MatrixXd rows) {
+  if (strip.row_weight.size() > 0) rows = strip.row_weight.asDiagonal() * rows;
+  return rows;
+}
+
+}  // namespace
+
 Eigen::MatrixXd on_rows(Strip const& strip, Eigen::Ref<Eigen::MatrixXd const> const& signals) {
-  return strip.filters->laws->apply_columns(signals)(strip.rows, Eigen::all);
+  return weighed(strip, strip.filters->laws->apply_columns(signals)(strip.rows, Eigen::all));
 }
 
 Eigen::MatrixXd drive_on_rows(Strip const& strip, Eigen::Ref<Eigen::MatrixXd const> const& signals) {
-  return strip.filters->drive->apply_columns(signals)(strip.rows, Eigen::all);
+  return weighed(strip, strip.filters->drive->apply_columns(signals)(strip.rows, Eigen::all));
 }
 
 Eigen::VectorXd at_drive_rate(Strip const& strip, Eigen::VectorXd const& signal) {

@@ -44,8 +44,9 @@ struct Strip {
   std::vector<char> is_quiet{};
   std::vector<Eigen::Index> rows{};  // among the samples that the filter keeps; 2.56 for each Hz of its cut-off
   Eigen::Index rows_apart = 1;
-  double resolution = 0.0;     // rad or m: what the position shows
-  BaselineReference beside{};  // gear load and given signals at the laws' rate; nothing else of it is set
+  Eigen::VectorXd row_weight{};  // of each row, 0 to 1 (row_weights.hpp); empty: all 1
+  double resolution = 0.0;       // rad or m: what the position shows
+  BaselineReference beside{};    // gear load and given signals at the laws' rate; nothing else of it is set
 
   Eigen::Index size() const { return motion.q.size(); }
   double duration_s() const { return static_cast<double>(size()) / motion.rate_hz; }
