@@ -5,7 +5,7 @@
 // Equation   weight^2 = v / (v + u): u, the mean square that replicates without noise leave on the row; v, the noise:
 //            the mean square that the recording leaves on the half of its rows where u is least
 // Why        weights learnt from the recording's own residual hide what is missing in the model
-// Threads    spreads replicates over the question's threads; same bits for any number
+// Threads    simulates replicates on the question's threads, fits them on one; same bits for any number
 // Source     engine/infer/all_rows/THEORY.md, Rows
 
 #include "engine/infer/all_rows/fitted_model.hpp"
