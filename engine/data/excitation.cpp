@@ -9,6 +9,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/order_statistic.hpp"
+#include "engine/data/encoder_step.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/levels.hpp"
 #include "engine/data/signal_facts.hpp"
@@ -118,7 +119,7 @@ double one_speed_share(BetweenEdges const& motion) {
 Excitation measure_channels(Recording const& recording) {
   Excitation facts;
   auto const& rows = recording.rows;
-  facts.encoder_step = rows.encoder_step > 0 ? rows.encoder_step : quantisation_step(numbers(recording.position));
+  facts.encoder_step = encoder_step(recording);
   facts.torque_limit_share =
       rows.torque_limit_share > 0 ? rows.torque_limit_share : limit_share(numbers(recording.torque));
   facts.torque_held_rows = held_rows(numbers(recording.torque));

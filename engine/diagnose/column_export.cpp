@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.hpp"
-#include "engine/data/signal_facts.hpp"
+#include "engine/data/encoder_step.hpp"
 #include "engine/infer/pipeline/simulator_gap.hpp"
 #include "engine/infer/search/shape_refinement.hpp"
 #include "engine/infer/validation/unseen_record.hpp"
@@ -15,11 +15,6 @@ namespace {
 
 double smoothing_cutoff(RecordPipeline const& pipeline) {
   return pipeline.cutoff_hz() > 0.0 ? pipeline.cutoff_hz() : 0.4 * pipeline.kept_rate_hz();
-}
-
-double encoder_step_of(Recording const& recording) {
-  if (recording.rows.encoder_step > 0.0) return recording.rows.encoder_step;
-  return quantisation_step({recording.position.data(), static_cast<std::size_t>(recording.position.size())});
 }
 
 // a recording compared with itself: candidates see its own motion, and no replicate takes chance off what they explain
@@ -126,7 +121,7 @@ ColumnExport export_columns(DiagnosisInput const& input) {
   auto const size = input.regressor.size();
   BaselineReference reference{.parameters = record.parameters, .gear_load = gear_load_of(train)};
   reference.scales = fitted_baseline(input.regressor, {record.parameters.data(), size}, record.motion,
-                                     smoothing_cutoff(pipeline), encoder_step_of(train), reference.beside_motion())
+                                     smoothing_cutoff(pipeline), encoder_step(train), reference.beside_motion())
                          .scales;
   ColumnExport result;
   {

@@ -10,6 +10,7 @@
 #include "engine/data/block_lengths.hpp"
 #include "engine/data/columns.hpp"
 #include "engine/data/data_problem.hpp"
+#include "engine/data/encoder_step.hpp"
 #include "engine/data/gaps.hpp"
 #include "engine/data/health/channel_units.hpp"
 #include "engine/data/health/clock.hpp"
@@ -409,7 +410,7 @@ Recording make_recording(RawTable const& whole, RecordingOptions const& options,
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
     return values;
   };
-  recording.rows.encoder_step = quantisation_step(known_of("position")) * std::fabs(options.position_per_unit);
+  recording.rows.encoder_step = shown_step(known_of("position")) * std::fabs(options.position_per_unit);
   if (exam.has("torque")) recording.rows.torque_limit_share = limit_share(known_of("torque"));
   recording.warnings = std::move(missing_words);
   for (auto& warning : warnings_of(recording.rows, recording.rate_hz)) recording.warnings.push_back(std::move(warning));

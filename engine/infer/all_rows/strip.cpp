@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/data/encoder_step.hpp"
 #include "engine/data/filter_checks.hpp"
-#include "engine/data/signal_facts.hpp"
 #include "engine/data/spline_motion.hpp"
 #include "engine/infer/all_rows/sticking_shape.hpp"
 #include "engine/infer/pipeline/held_torque.hpp"
@@ -190,10 +190,7 @@ std::shared_ptr<StripFilters const> strip_filters(Recording const& recording, Fi
 }
 
 double position_resolution(Recording const& recording) {
-  double const step =
-      recording.rows.encoder_step > 0.0
-          ? recording.rows.encoder_step
-          : quantisation_step({recording.position.data(), static_cast<std::size_t>(recording.position.size())});
+  double const step = encoder_step(recording);
   return step > 0.0 ? step : noise_span * noise_of(recording.position);
 }
 

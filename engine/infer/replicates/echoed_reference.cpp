@@ -1,16 +1,9 @@
 #include "engine/infer/replicates/echoed_reference.hpp"
 
-#include <span>
-
-#include "engine/data/signal_facts.hpp"
+#include "engine/data/encoder_step.hpp"
 
 namespace torquescope {
 namespace {
-
-double encoder_step_of(Recording const& recording) {
-  if (recording.rows.encoder_step > 0.0) return recording.rows.encoder_step;
-  return quantisation_step({recording.position.data(), static_cast<std::size_t>(recording.position.size())});
-}
 
 bool is_white(Eigen::VectorXd const& signal) {
   constexpr Eigen::Index rows = 64, fewest_means = 8;
@@ -28,7 +21,7 @@ bool is_white(Eigen::VectorXd const& signal) {
 bool has_echoed_reference(Recording const& recording) {
   if (recording.position.size() == 0 || recording.reference.size() != recording.position.size()) return false;
   Eigen::VectorXd const apart = recording.reference - recording.position;
-  return apart.cwiseAbs().maxCoeff() <= encoder_step_of(recording) || is_white(apart);
+  return apart.cwiseAbs().maxCoeff() <= encoder_step(recording) || is_white(apart);
 }
 
 Recording without_echoed_reference(Recording recording) {

@@ -8,7 +8,7 @@
 
 #include "engine/base/dense_solvers.hpp"
 #include "engine/base/error.hpp"
-#include "engine/data/signal_facts.hpp"
+#include "engine/data/encoder_step.hpp"
 
 namespace torquescope {
 namespace {
@@ -102,9 +102,7 @@ RolloutTrack track_of(Recording const& recording, TrackOptions const& options) {
   if (options.controller_rate_hz > recording.rate_hz)
     track.ticks_per_sample =
         static_cast<std::size_t>(std::max(1.0, options.controller_rate_hz / recording.rate_hz + 0.5));
-  track.encoder_step = recording.rows.encoder_step > 0.0
-                           ? recording.rows.encoder_step
-                           : quantisation_step({recording.position.data(), static_cast<std::size_t>(n)});
+  track.encoder_step = encoder_step(recording);
   track.time_s = recording.time_s;
   track.reference = recording.reference;
   track.position = recording.position;
