@@ -102,6 +102,7 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
 
   ReferenceSignal const reference(track_.reference);
   open_ = open_part(loop_.law, track_.reference, track_.gear_load);
+  if (track_.fed_forward.size() > 0) open_ += track_.fed_forward;
   wanted_.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) wanted_[k] = reference(k + loop_.law.shift);
 }
@@ -145,8 +146,9 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     position_noise.next(noise);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) measured[lane] = state.q[lane] + noise[lane];
     for (auto const& effect : effects) effect->shift_position(instant_of(state, time_s, tick_s, command), measured);
+    if (loop_.sees_motion) controller.command(measured, open_[k], wanted_[k], command);
     read_encoder(loop_.encoder_step, encoder_phase, measured);
-    controller.command(measured, open_[k], wanted_[k], command);
+    if (!loop_.sees_motion) controller.command(measured, open_[k], wanted_[k], command);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
       // also true for a command that is no number
       if (!(std::abs(command[lane]) <= track_.largest_torque)) out.ran_away[lane] = true;

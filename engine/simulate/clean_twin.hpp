@@ -42,6 +42,7 @@ struct TwinLoop {
   double friction_wander = 0.0;
   double friction_wander_variance_error = 0.0;
   StickingRange sticking{};  // of dry friction: every replicate draws a law of its own; none: it holds at once
+  bool sees_motion = false;  // the law answers the position itself, before the encoder's steps
 };
 
 // the same law with nothing random about it
@@ -57,6 +58,7 @@ struct TwinTrack {
   // [n] what the law gives beside the joint's own torque, held, to an arm whose other joints move; empty: nothing. The
   // replicate's torque is without it, as that of a recording is
   Eigen::VectorXd gear_load{};
+  Eigen::VectorXd fed_forward{};  // [n] torque that the law adds to its answer; empty: none
 };
 
 struct TwinAddress {

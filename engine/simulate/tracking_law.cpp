@@ -6,18 +6,26 @@
 
 namespace torquescope {
 
-LoopLaw tracking_law(TrackedJoint const& joint, double bandwidth_hz, TrackedMotion const& motion) {
-  double const rate_hz = motion.rate_hz;
-  TORQUESCOPE_EXPECT(joint.inertia > 0.0 && motion.slow > 0.0);
-  TORQUESCOPE_EXPECT(bandwidth_hz > 0.0 && bandwidth_hz <= 0.05 * rate_hz);
+LoopLaw error_law(double inertia, double bandwidth_hz, double rate_hz) {
+  TORQUESCOPE_EXPECT(inertia > 0.0 && bandwidth_hz > 0.0 && bandwidth_hz <= 0.05 * rate_hz);
   double const omega = 2.0 * std::numbers::pi * bandwidth_hz;
-  double const kp = joint.inertia * omega * omega;
-  double const kd = 2.0 * joint.inertia * omega * rate_hz;      // per difference of one sample
-  double const accelerate = joint.inertia * rate_hz * rate_hz;  // per second difference
-  double const move = 0.5 * (kd + joint.viscous * rate_hz);     // per difference of two samples
+  double const kp = inertia * omega * omega;
+  double const kd = 2.0 * inertia * omega * rate_hz;  // per difference of one sample
   LoopLaw law;
   law.position = {-kp - kd, kd};
-  law.reference = {accelerate - move, kp - 2.0 * accelerate, accelerate + move};
+  law.reference = {-0.5 * kd, kp, 0.5 * kd};
+  return law;
+}
+
+LoopLaw tracking_law(TrackedJoint const& joint, double bandwidth_hz, TrackedMotion const& motion) {
+  double const rate_hz = motion.rate_hz;
+  TORQUESCOPE_EXPECT(motion.slow > 0.0);
+  LoopLaw law = error_law(joint.inertia, bandwidth_hz, rate_hz);
+  double const accelerate = joint.inertia * rate_hz * rate_hz;  // per second difference
+  double const move = 0.5 * joint.viscous * rate_hz;            // per difference of two samples
+  law.reference[0] += accelerate - move;
+  law.reference[1] -= 2.0 * accelerate;
+  law.reference[2] += accelerate + move;
   law.constant = 0.5 * (joint.forward + joint.backward);
   double const dry = 0.5 * (joint.forward - joint.backward);
   if (dry != 0.0) law.terms.push_back({ReferenceShape::smooth_sign, 1, 2, motion.slow / rate_hz, dry});

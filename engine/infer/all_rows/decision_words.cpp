@@ -40,8 +40,8 @@ std::string clause(Refusal refusal) {
 
 std::string word(ReplicateSource source) {
   switch (source) {
-    case ReplicateSource::own_loop:
-      return "own_loop";
+    case ReplicateSource::recorded_torque:
+      return "recorded_torque";
     case ReplicateSource::tracking_loop:
       return "tracking_loop";
     case ReplicateSource::measured_motion:

@@ -12,7 +12,7 @@ namespace torquescope {
 
 std::string word(Refusal refusal);
 std::string clause(Refusal refusal);       // why a law is no name         // "too_small"
-std::string word(ReplicateSource source);  // "own_loop"
+std::string word(ReplicateSource source);  // "recorded_torque"
 std::string word(LoopReason reason);       // "no_reference"
 std::string word(MoveRefusal refusal);     // "not_predicted"
 

@@ -112,8 +112,9 @@ ReplicateMaker::ReplicateMaker(ReplicateSetting const& setting, std::size_t reco
       source_ = source;
       return true;
     };
-    bool const has_reference = alone.reference.size() == alone.position.size();
-    if (has_reference && led(recorded_loop(alone, tracked(joint), setting.filter), ReplicateSource::own_loop)) return;
+    Recording fed = alone;
+    fed.torque = earlier(alone.torque, chosen.late_s, alone.rate_hz);
+    if (led(torque_fed_loop(fed, joint.lanes.inertia, setting.filter), ReplicateSource::recorded_torque)) return;
     led(tracking_loop(alone, tracked(joint), setting.filter), ReplicateSource::tracking_loop);
   } catch (Error const&) {
     // parameters that are no joint: the measured motion is left

@@ -1,9 +1,10 @@
 #pragma once
-// Replicates of the recordings of one joint by one model: simulated in their loops, every one with its own sticking of
-// friction and its own place of the encoder's steps.
+// Replicates of the recordings of one joint by one model: simulated, every one with its own sticking of friction and
+// its own place of the encoder's steps.
 //
-// Loop       of the recording (recorded_loop.hpp); where the joint runs away in it, a loop of our own round the
-//            measured motion; where it runs away in that as well, the measured motion itself with the model's torque
+// Drive      the recorded torque, led slowly to the measured motion (recorded_loop.hpp); where the joint runs away, a
+//            loop that follows the motion closely; where it runs away in that as well, the measured motion itself with
+//            the model's torque
 // Given      torque of given columns (masses of an arm) is that of the measured motion in every replicate: the joint
 //            moves in its loop without it, and its gear carries it
 // Noise      none in the loop: the caller adds it to the rows (row_noise.hpp)
@@ -22,7 +23,7 @@
 
 namespace torquescope {
 
-enum class ReplicateSource { own_loop, tracking_loop, measured_motion };
+enum class ReplicateSource { recorded_torque, tracking_loop, measured_motion };
 
 struct ReplicateSetting {
   std::span<Recording const> recordings;

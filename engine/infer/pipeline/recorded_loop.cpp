@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/data/encoder_step.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/signal_facts.hpp"
 #include "engine/infer/pipeline/drive_torque.hpp"
@@ -38,14 +39,12 @@ bool is_last_resort(Recording const& recording) {
   return recording.reference.size() == recording.position.size() && !is_of_arm;
 }
 
-constexpr double runaway = 3.0;  // times the largest torque of the recording, or of the model along its motion
+constexpr double bandwidth_share = 0.03;  // of the rate
+constexpr double runaway = 3.0;           // times the largest torque of the recording, or of the model along its motion
 
 RecordedLoop common_parts(Recording const& recording) {
   RecordedLoop result;
-  result.loop.encoder_step =
-      recording.rows.encoder_step > 0.0
-          ? recording.rows.encoder_step
-          : quantisation_step({recording.position.data(), static_cast<std::size_t>(recording.position.size())});
+  result.loop.encoder_step = encoder_step(recording);
   result.track.rate_hz = recording.rate_hz;
   result.track.start_position = recording.position[0];
   result.track.start_velocity = first_velocity(recording);
@@ -65,22 +64,24 @@ double widest_of_encoder(Recording const& recording, double inertia) {
 // The measured motion without what its encoder adds. Beyond its ends it goes on as its odd reflection, for as long as
 // the filter remembers: what a filter makes of an end is an acceleration that no joint had, and twins that follow it
 // run away
-Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const& filter) {
-  if (is_last_resort(recording)) return differentiate(recording, filter, {}).q;
-  if (filter.cutoff_hz == 0.0) return recording.position;
+Eigen::VectorXd smoothed(Eigen::VectorXd const& q, double rate_hz, FilterOptions const& filter) {
+  if (filter.cutoff_hz == 0.0) return q;
   constexpr double periods = 3.0;
-  Eigen::VectorXd const& q = recording.position;
   Eigen::Index const n = q.size();
-  Eigen::Index const pad =
-      std::min(n - 1, static_cast<Eigen::Index>(std::ceil(periods * recording.rate_hz / filter.cutoff_hz)));
+  Eigen::Index const pad = std::min(n - 1, static_cast<Eigen::Index>(std::ceil(periods * rate_hz / filter.cutoff_hz)));
   Recording longer;
-  longer.rate_hz = recording.rate_hz;
+  longer.rate_hz = rate_hz;
   longer.position.resize(n + 2 * pad);
   longer.position.segment(pad, n) = q;
   longer.position.head(pad) = 2.0 * q[0] - q.segment(1, pad).reverse().array();
   longer.position.tail(pad) = 2.0 * q[n - 1] - q.segment(n - 1 - pad, pad).reverse().array();
   longer.torque = Eigen::VectorXd::Zero(longer.position.size());
   return differentiate(std::move(longer), filter, {}).q.segment(pad, n);
+}
+
+Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const& filter) {
+  if (is_last_resort(recording)) return differentiate(recording, filter, {}).q;
+  return smoothed(recording.position, recording.rate_hz, filter);
 }
 
 // The largest torque that the joint needs along a motion. A model that explains little of a recording may need more
@@ -159,7 +160,6 @@ RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint
 }
 
 RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter) {
-  constexpr double bandwidth_share = 0.03;  // of the rate
   RecordedLoop result = common_parts(recording);
   result.source = LoopSource::tracking;
   result.track.reference = smoothed_motion(recording, filter);
@@ -173,6 +173,19 @@ RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint
   result.loop.law = tracking_law(joint, bandwidth_hz, {recording.rate_hz, slow});
   result.loop.torque_noise = white(white_noise(recording.torque));
   result.remark = "replicates follow the measured motion in a stiff loop of our own";
+  return result;
+}
+
+RecordedLoop torque_fed_loop(Recording const& recording, double inertia, FilterOptions const& filter) {
+  constexpr double tenth = 0.1;  // of the filter's cut-off: friction turns round within its period
+  RecordedLoop result = common_parts(recording);
+  result.source = LoopSource::tracking;
+  result.track.reference = smoothed(recording.position, recording.rate_hz, filter);
+  result.track.fed_forward = smoothed(recording.torque, recording.rate_hz, filter);
+  double const widest = bandwidth_share * recording.rate_hz;
+  double const bandwidth_hz = filter.cutoff_hz > 0.0 ? std::min(tenth * filter.cutoff_hz, widest) : widest;
+  result.loop.law = error_law(inertia, bandwidth_hz, recording.rate_hz);
+  result.loop.sees_motion = true;
   return result;
 }
 

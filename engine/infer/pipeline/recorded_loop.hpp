@@ -46,4 +46,8 @@ RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint
 // as if the recording had no reference: what to fall back to when the identified loop runs away
 RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter);
 
+// The joint is driven by the recorded torque, low-passed by `filter`, and led slowly by errors of the smoothed motion:
+// so its friction turns round by itself, as it did in the recording, and not where a smooth motion says
+RecordedLoop torque_fed_loop(Recording const& recording, double inertia, FilterOptions const& filter);
+
 }  // namespace torquescope
