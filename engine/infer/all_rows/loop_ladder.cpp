@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "engine/base/parallel.hpp"
@@ -117,6 +118,7 @@ class Ladder {
   // The best of several starts: all get a look, the better third and no fewer than three are followed a little
   // (successive halving: Jamieson, Talwalkar 2016, AISTATS, arXiv:1502.07943)
   LoopFit best_of(std::vector<LoopPoint> const& points, int threads) const {
+    if (points.size() == 1) return fitted(q_, points.front(), LoopSearch::a_little, threads);
     std::vector<LoopFit> fits;
     for (auto const& point : points) fits.push_back(fitted(q_, point, LoopSearch::a_look, threads));
     std::stable_sort(fits.begin(), fits.end(),
@@ -128,15 +130,32 @@ class Ladder {
                              [&](LoopFit const& a, LoopFit const& b) { return leaves_less(a, b, q_.counts); });
   }
 
-  // Warm from the parent: a law at the start that gains most on the plane, a number of the loop at each; the best to
-  // its end, unless it has come to a bound by then
-  LoopFit with(LoopFit const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
+  // warm from the parent, followed a little: a law at the start that gains most on the plane, a number of the loop at
+  // each
+  LoopFit begun_with(LoopFit const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
     LoopMove const& own = q_.moves[move];
-    std::vector<LoopPoint> const points =
-        bends(own) ? begun(parent.point, move)
-                   : std::vector{with_move(q_, parent.point, move, own.starts[starts.front()])};
-    LoopFit const best = best_of(points, 1);
-    return best.fit.failed || is_at_bound(q_, parent, best, move) ? best : fitted(q_, best.point);
+    return best_of(bends(own) ? begun(parent.point, move)
+                              : std::vector{with_move(q_, parent.point, move, own.starts[starts.front()])},
+                   1);
+  }
+
+  // Of each asked move. What gains less than half of the best by a little is no tie with it, and is followed no further
+  std::vector<std::optional<LoopFit>> fits_of(LoopFit const& parent, std::vector<ScannedMove> const& asked) const {
+    constexpr double half = 0.5;
+    std::vector<LoopFit> begun(asked.size());
+    parallel_for(asked.size(), q_.threads,
+                 [&](std::size_t i, int) { begun[i] = begun_with(parent, asked[i].move, asked[i].starts); });
+    double most = 0.0;
+    for (auto const& one : begun) most = std::max(most, gain_of(parent, one, q_.counts));
+    std::vector<std::optional<LoopFit>> fits(asked.size());
+    parallel_for(asked.size(), q_.threads, [&](std::size_t i, int) {
+      bool const is_less = gain_of(parent, begun[i], q_.counts) < half * most;
+      if (begun[i].fit.failed)
+        fits[i] = begun[i];
+      else if (!is_less)
+        fits[i] = fitted(q_, begun[i].point);
+    });
+    return fits;
   }
 
   bool predicts_better(LoopErrors const& before, LoopErrors const& after) const {
@@ -154,24 +173,25 @@ class Ladder {
     LoopScan const scan = scan_moves(q_, parent.fit, moves_left(parent), step_++);
     LoopStepFacts step{{}, scan.replicates, {}};
     for (std::size_t const move : parent.fit.point.moves) step.model.push_back(q_.moves[move].subject);
-    std::vector<LoopFit> fits(std::min(q_.numbers.refined, scan.moves.size()));
-    auto const is_asked = [&](std::size_t i) {
-      return i < fits.size() && scan.moves[i].p <= q_.numbers.alpha && scan.moves[i].gain > 0.0;
-    };
-    parallel_for(fits.size(), q_.threads, [&](std::size_t i, int) {
-      if (is_asked(i)) fits[i] = with(parent.fit, scan.moves[i].move, scan.moves[i].starts);
-    });
+    std::vector<ScannedMove> asked;
+    for (std::size_t i = 0; i < std::min(q_.numbers.refined, scan.moves.size()); ++i)
+      if (scan.moves[i].p <= q_.numbers.alpha && scan.moves[i].gain > 0.0) asked.push_back(scan.moves[i]);
+    auto fits = fits_of(parent.fit, asked);
     std::vector<Member> children;
-    for (std::size_t i = 0; i < scan.moves.size(); ++i) {
-      ScannedMove const& move = scan.moves[i];
+    for (ScannedMove const& move : scan.moves) {
       MoveFacts facts{q_.moves[move.move].subject, move.gain, move.p, move.level, parent.fit.judged(q_)};
       if (move.p <= q_.numbers.alpha) facts.refusal = MoveRefusal::smaller;
-      if (is_asked(i)) {
-        facts.refusal = refusal_of(parent, fits[i], move.move);
-        facts.after = fits[i].judged(q_);
-        if (!fits[i].fit.failed) facts.gain = gain_of(parent.fit, fits[i], q_.counts);
+      auto const place =
+          std::find_if(asked.begin(), asked.end(), [&](ScannedMove const& one) { return one.move == move.move; });
+      std::optional<LoopFit>* const own =
+          place == asked.end() ? nullptr : &fits[static_cast<std::size_t>(place - asked.begin())];
+      if (own != nullptr && own->has_value()) {
+        LoopFit& fit = own->value();
+        facts.refusal = refusal_of(parent, fit, move.move);
+        facts.after = fit.judged(q_);
+        if (!fit.fit.failed) facts.gain = gain_of(parent.fit, fit, q_.counts);
         if (facts.refusal == MoveRefusal::none) {
-          children.push_back({std::move(fits[i]), parent.taken});
+          children.push_back({std::move(fit), parent.taken});
           children.back().taken.emplace(move.move, move);
         }
       }
@@ -253,7 +273,8 @@ class Ladder {
     parallel_for(others.size(), q_.threads, [&](std::size_t i, int) {
       double const least = gain - std::max(best.taken.at(move).level, others[i].level);
       if (q_.moves[others[i].move].subject == q_.moves[move].subject || others[i].gain < half_way * own_step) return;
-      LoopFit const fit = with(without, others[i].move, others[i].starts);
+      LoopFit fit = begun_with(without, others[i].move, others[i].starts);
+      if (!fit.fit.failed) fit = fitted(q_, fit.point);
       if (fit.fit.failed || is_at_bound(q_, without, fit, others[i].move)) return;
       double const own = gain_of(without, fit, q_.counts);
       bool const is_as_good = own >= least || !predicts_better(fit.judged(q_), best.fit.judged(q_));

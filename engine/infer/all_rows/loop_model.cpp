@@ -48,10 +48,13 @@ LoopPoint moved_to(LoopPoint point, Eigen::VectorXd const& parameters) {
 LmOptions options_of(LoopQuestion const& question, LoopSearch search) {
   LmOptions options;
   options.fits_starts = question.fits_starts;
+  // a quarter of what one parameter gains by chance once in twenty: ridges of two effects alike are long
+  options.least_gain = 1.0;
   constexpr std::int64_t a_look = 2, a_little = 8;
   if (search != LoopSearch::to_its_end) {
     options.iterations = search == LoopSearch::a_look ? a_look : a_little;
     options.passes = 1;
+    options.has_intervals = false;
   }
   return options;
 }
@@ -180,7 +183,7 @@ bool hangs_on(LoopQuestion const& question, LoopFit const& without, LoopFit cons
   auto const& range = model.parameters()[number];
   double const middle = range.is_logarithmic ? std::sqrt(range.lower * range.upper) : 0.5 * (range.lower + range.upper);
   LoopFit inside{fit.point, fit_rollouts_from(model.with_held(number, middle), question.training, question.counts,
-                                              fit.point.starts, options_of(question, LoopSearch::to_its_end), 1)};
+                                              fit.point.starts, options_of(question, LoopSearch::a_little), 1)};
   if (inside.fit.failed) return true;
   // n_eff differs from fit to fit, and squares are compared here
   inside.fit.effective = fit.fit.effective;

@@ -315,7 +315,7 @@ void roll_out(RolloutTrack const& track, RolloutStructure const& structure, std:
 }
 
 double longest_step_s(RolloutTrial const& trial, RolloutStructure const& structure, double tick_s) {
-  constexpr double fiftieth = 0.02, of_memory_s = 2.5e-4;
+  constexpr double fiftieth = 0.02, of_memory_s = 5e-4;
   double const inertia = trial.joint.inertia;
   if (!(inertia > 0.0)) return tick_s;
   double const decay = std::abs(trial.joint.viscous + trial.loop.back_emf) / inertia;

@@ -45,8 +45,9 @@ class Search {
     for (Index k = 0; k < unknowns_.parameters(); ++k)
       if (unknowns_.is_at_bound(at, k))
         fit.at_bounds.push_back(unknowns_.model().parameters()[static_cast<std::size_t>(k)].name);
-    FitIntervals const intervals =
-        fit.failed ? no_intervals(unknowns_.parameters()) : intervals_of(unknowns_, at, slope(at, options_.width));
+    FitIntervals const intervals = fit.failed || !options_.has_intervals
+                                       ? no_intervals(unknowns_.parameters())
+                                       : intervals_of(unknowns_, at, slope(at, options_.width));
     fit.errors = intervals.errors;
     fit.lower = intervals.lower;
     fit.upper = intervals.upper;
@@ -116,8 +117,7 @@ class Search {
 
   // false: it has come to rest
   bool improve(FitPoint& at, double& best) {
-    // in units of the statistic, whose noise is a few: a tenth decides nothing
-    constexpr double least_gain = 0.1, wider = 4.0, widest = 40.0;
+    constexpr double wider = 4.0, widest = 40.0;
     while (width_ <= widest * options_.width) {
       auto const candidates = steps_from(at, slope(at, width_));
       auto const sums = sums_at(candidates);
@@ -129,7 +129,7 @@ class Search {
         at = candidates[first];
         best -= gain;
       }
-      if (gain > least_gain) return true;
+      if (gain > options_.least_gain) return true;
       width_ *= wider;
     }
     return false;

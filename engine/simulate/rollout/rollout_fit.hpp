@@ -33,6 +33,9 @@ struct LmOptions {
   double width = 2e-3;
   std::int64_t starts = 4;  // of shapes whose start the job does not give
   bool fits_starts = true;  // nuisances of segments; never of windows
+  // of the statistic, whose noise is a few: an iteration that gains less ends the search; no key of a job
+  double least_gain = 0.1;
+  bool has_intervals = true;  // of the numbers; no key of a job
 
   static OptionTable<LmOptions> const& table();
 };

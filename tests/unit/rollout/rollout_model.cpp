@@ -105,7 +105,7 @@ TEST(RolloutModel, StepsShortEnoughForItsJoint) {
   RolloutStructure remembers;
   remembers.effects = {find_effect("presliding")};
   trial.joint = {0.05, 0.15, 0.0, 0.0};
-  EXPECT_NEAR(longest_step_s(trial, remembers, 1e-3), 2.5e-4, 1e-9);
+  EXPECT_NEAR(longest_step_s(trial, remembers, 1e-3), 5e-4, 1e-9);
 }
 
 TEST(RolloutModel, RefusesTwoParametersOfOneName) {
