@@ -156,7 +156,7 @@ std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& 
 std::string all_samples_sentence(WhyAllSamples why) {
   if (why == WhyAllSamples::could_not_ask)
     return "All samples decide: too few rows move one way, or no loop holds the joint on them.";
-  return "All samples decide: rows that move one way explain nothing and hold less than half of what the model leaves.";
+  return "All samples decide: rows that move one way explain nothing.";
 }
 
 }  // namespace torquescope

@@ -46,7 +46,7 @@ std::string likeness_sentence(JointDiagnosis const& joint);
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
 
 // why all samples decide although moving rows were asked
-enum class WhyAllSamples { hidden, could_not_ask };
+enum class WhyAllSamples { explain_nothing, could_not_ask };
 std::string all_samples_sentence(WhyAllSamples why);
 
 }  // namespace torquescope

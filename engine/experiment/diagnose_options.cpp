@@ -81,8 +81,8 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
         "weighed where too few rows are left without them"},
        {"decider", &DiagnoseOptions::decider, decider_words(),
         "rows that a verdict is decided on: those that move one way, or all; both: the first decides, and the result "
-        "holds what the other says; auto: all rows of one joint where those that move one way explain nothing and "
-        "hold less than half of the residual's energy"},
+        "holds what the other says; auto: names by all rows of one joint where those that move one way explain "
+        "nothing"},
        {"null", &DiagnoseOptions::null, null_words(),
         "ablation, not for use: what chance is taken for; all but \"twins\" invent effects on clean recordings"},
        {"indirect_inference", &DiagnoseOptions::indirect_inference,

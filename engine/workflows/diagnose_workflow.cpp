@@ -166,10 +166,9 @@ Diagnosis with_moving_zero(Diagnosis diagnosis, std::vector<Finding> const& find
   return diagnosis;
 }
 
-// Rows that move one way have explained nothing, and hold less than half of what the model leaves
-bool hides_most(Diagnosis const& diagnosis) {
-  bool const is_silent = diagnosis.verdict == Verdict::unexplained || diagnosis.verdict == Verdict::insufficient;
-  return is_silent && looks_at_less_than_half(diagnosis.joints.front());
+// rows that move one way have explained nothing
+bool is_silent(Diagnosis const& diagnosis) {
+  return diagnosis.verdict == Verdict::unexplained || diagnosis.verdict == Verdict::insufficient;
 }
 
 bool asked_nothing(Diagnosis const& diagnosis) {
@@ -182,7 +181,7 @@ Diagnosis with_all_samples(Diagnosis first, Diagnosis all) {
   bool const is_first = asked_nothing(first) && !asked_nothing(all);
   bool const says_more = names_physics(all.verdict) || all.verdict == Verdict::data_fault;
   if (is_first || says_more) {
-    all.reason += " " + all_samples_sentence(is_first ? WhyAllSamples::could_not_ask : WhyAllSamples::hidden);
+    all.reason += " " + all_samples_sentence(is_first ? WhyAllSamples::could_not_ask : WhyAllSamples::explain_nothing);
     return all;
   }
   first.joints.front().decision = std::move(all.joints.front().decision);
@@ -198,7 +197,7 @@ Diagnosis diagnose_one_joint(Experiment::Parts const& parts, int threads, TwinEx
   Diagnosis diagnosis = diagnose_joint(job.input(), sink).diagnosis;
   if (decider == Decider::both) diagnosis.joints.front().decision = on_all_rows().joints.front().decision;
   bool const is_whole = parts.diagnose.ablations().empty();
-  if (decider == Decider::by_job && is_whole && (hides_most(diagnosis) || asked_nothing(diagnosis)))
+  if (decider == Decider::by_job && is_whole && is_silent(diagnosis))
     return with_all_samples(std::move(diagnosis), on_all_rows());
   return diagnosis;
 }
