@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "engine/base/parallel.hpp"
@@ -139,25 +138,6 @@ class Ladder {
                    1);
   }
 
-  // Of each asked move. What gains less than half of the best by a little is no tie with it, and is followed no further
-  std::vector<std::optional<LoopFit>> fits_of(LoopFit const& parent, std::vector<ScannedMove> const& asked) const {
-    constexpr double half = 0.5;
-    std::vector<LoopFit> begun(asked.size());
-    parallel_for(asked.size(), q_.threads,
-                 [&](std::size_t i, int) { begun[i] = begun_with(parent, asked[i].move, asked[i].starts); });
-    double most = 0.0;
-    for (auto const& one : begun) most = std::max(most, gain_of(parent, one, q_.counts));
-    std::vector<std::optional<LoopFit>> fits(asked.size());
-    parallel_for(asked.size(), q_.threads, [&](std::size_t i, int) {
-      bool const is_less = gain_of(parent, begun[i], q_.counts) < half * most;
-      if (begun[i].fit.failed)
-        fits[i] = begun[i];
-      else if (!is_less)
-        fits[i] = fitted(q_, begun[i].point);
-    });
-    return fits;
-  }
-
   bool predicts_better(LoopErrors const& before, LoopErrors const& after) const {
     return after.both() < (1.0 - q_.numbers.least_fall) * before.both();
   }
@@ -168,6 +148,47 @@ class Ladder {
     return predicts_better(parent.fit.judged(q_), fit.judged(q_)) ? MoveRefusal::none : MoveRefusal::not_predicted;
   }
 
+  struct TriedMove {
+    LoopFit fit;
+    MoveRefusal refusal = MoveRefusal::none;
+  };
+
+  // Each is followed a little. What then gains less than half of the best that nothing speaks against is no tie with it,
+  // and goes no further unless all ties are refused in the end
+  std::vector<TriedMove> tried(Member const& parent, std::vector<ScannedMove> const& asked) const {
+    constexpr double half = 0.5;
+    std::vector<TriedMove> all(asked.size());
+    auto const gain = [&](TriedMove const& one) { return gain_of(parent.fit, one.fit, q_.counts); };
+    parallel_for(all.size(), q_.threads, [&](std::size_t i, int) {
+      all[i].fit = begun_with(parent.fit, asked[i].move, asked[i].starts);
+      if (all[i].fit.fit.failed || !(gain(all[i]) > 0.0))
+        all[i].refusal = MoveRefusal::failed_fit;
+      else if (is_at_bound(q_, parent.fit, all[i].fit, asked[i].move))
+        all[i].refusal = MoveRefusal::at_bound;
+    });
+    double most = 0.0;
+    for (auto const& one : all)
+      if (one.refusal == MoveRefusal::none) most = std::max(most, gain(one));
+    std::vector<std::size_t> first, others;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].refusal == MoveRefusal::none) (gain(all[i]) < half * most ? others : first).push_back(i);
+    auto const follow = [&](std::vector<std::size_t> const& which) {
+      parallel_for(which.size(), q_.threads, [&](std::size_t k, int) {
+        TriedMove& one = all[which[k]];
+        one.fit = fitted(q_, one.fit.point);
+        one.refusal = refusal_of(parent, one.fit, asked[which[k]].move);
+      });
+      return std::any_of(which.begin(), which.end(),
+                         [&](std::size_t i) { return all[i].refusal == MoveRefusal::none; });
+    };
+    if (!follow(first)) {
+      follow(others);
+    } else {
+      for (std::size_t const i : others) all[i].refusal = MoveRefusal::smaller;
+    }
+    return all;
+  }
+
   // what one member of the beam becomes with one more move
   std::vector<Member> children_of(Member const& parent) {
     LoopScan const scan = scan_moves(q_, parent.fit, moves_left(parent), step_++);
@@ -176,22 +197,20 @@ class Ladder {
     std::vector<ScannedMove> asked;
     for (std::size_t i = 0; i < std::min(q_.numbers.refined, scan.moves.size()); ++i)
       if (scan.moves[i].p <= q_.numbers.alpha && scan.moves[i].gain > 0.0) asked.push_back(scan.moves[i]);
-    auto fits = fits_of(parent.fit, asked);
+    std::vector<TriedMove> fits = tried(parent, asked);
     std::vector<Member> children;
     for (ScannedMove const& move : scan.moves) {
       MoveFacts facts{q_.moves[move.move].subject, move.gain, move.p, move.level, parent.fit.judged(q_)};
       if (move.p <= q_.numbers.alpha) facts.refusal = MoveRefusal::smaller;
       auto const place =
           std::find_if(asked.begin(), asked.end(), [&](ScannedMove const& one) { return one.move == move.move; });
-      std::optional<LoopFit>* const own =
-          place == asked.end() ? nullptr : &fits[static_cast<std::size_t>(place - asked.begin())];
-      if (own != nullptr && own->has_value()) {
-        LoopFit& fit = own->value();
-        facts.refusal = refusal_of(parent, fit, move.move);
-        facts.after = fit.judged(q_);
-        if (!fit.fit.failed) facts.gain = gain_of(parent.fit, fit, q_.counts);
+      if (place != asked.end()) {
+        TriedMove& own = fits[static_cast<std::size_t>(place - asked.begin())];
+        facts.refusal = own.refusal;
+        facts.after = own.fit.judged(q_);
+        if (!own.fit.fit.failed) facts.gain = gain_of(parent.fit, own.fit, q_.counts);
         if (facts.refusal == MoveRefusal::none) {
-          children.push_back({std::move(fit), parent.taken});
+          children.push_back({std::move(own.fit), parent.taken});
           children.back().taken.emplace(move.move, move);
         }
       }
