@@ -153,8 +153,8 @@ class Ladder {
     MoveRefusal refusal = MoveRefusal::none;
   };
 
-  // Each is followed a little. What then gains less than half of the best that nothing speaks against is no tie with it,
-  // and goes no further unless all ties are refused in the end
+  // Each is followed a little. What then gains less than half of the best that nothing speaks against is no tie with
+  // it, and goes no further unless all ties are refused in the end
   std::vector<TriedMove> tried(Member const& parent, std::vector<ScannedMove> const& asked) const {
     constexpr double half = 0.5;
     std::vector<TriedMove> all(asked.size());
