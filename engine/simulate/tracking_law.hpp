@@ -26,7 +26,7 @@ struct TrackedMotion {
   double slow = 1.0;  // rad/s or m/s: what the noise of the measured velocity could be
 };
 
-// the same loop without what it feeds forward: it answers errors of position and velocity alone
+// answers errors of position and velocity alone, with these poles; nothing is fed forward
 LoopLaw error_law(double inertia, double bandwidth_hz, double rate_hz);
 LoopLaw tracking_law(TrackedJoint const& joint, double bandwidth_hz, TrackedMotion const& motion);
 

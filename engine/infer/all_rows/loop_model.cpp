@@ -176,8 +176,8 @@ std::vector<LoopNumber> numbers_of(LoopQuestion const& question, LoopFit const& 
 namespace {
 
 // Whether a move says what it says because one of its numbers is at the end of its range: with that number in the
-// middle, and all others fitted again, more than least_fall of its D is gone. The rest of a spring that hardly hardens
-// does not matter
+// middle, and all others fitted again a little, more than least_fall of its D is gone. The rest of a spring that hardly
+// hardens does not matter
 bool hangs_on(LoopQuestion const& question, LoopFit const& without, LoopFit const& fit, RolloutModel const& model,
               std::size_t number) {
   auto const& range = model.parameters()[number];

@@ -6,7 +6,7 @@
 //            loop that follows the motion closely; where it runs away in that as well, the measured motion itself with
 //            the model's torque
 // Given      torque of given columns (masses of an arm) is that of the measured motion in every replicate: the joint
-//            moves in its loop without it, and its gear carries it
+//            moves without it, and its gear carries it
 // Noise      none in the loop: the caller adds it to the rows (row_noise.hpp)
 // Rows       those of the recording
 // Random     addressed by (seed, recording, step of the search, replicate)

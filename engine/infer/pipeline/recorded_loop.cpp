@@ -61,9 +61,8 @@ double widest_of_encoder(Recording const& recording, double inertia) {
   return torque_rms / (4.0 * std::numbers::pi * inertia * recording.rate_hz * step);
 }
 
-// The measured motion without what its encoder adds. Beyond its ends it goes on as its odd reflection, for as long as
-// the filter remembers: what a filter makes of an end is an acceleration that no joint had, and twins that follow it
-// run away
+// A low-passed signal. Beyond its ends it goes on as its odd reflection, for as long as the filter remembers: what a
+// filter makes of the end of a motion is an acceleration that no joint had, and replicates that follow it run away
 Eigen::VectorXd smoothed(Eigen::VectorXd const& q, double rate_hz, FilterOptions const& filter) {
   if (filter.cutoff_hz == 0.0) return q;
   constexpr double periods = 3.0;
@@ -79,6 +78,7 @@ Eigen::VectorXd smoothed(Eigen::VectorXd const& q, double rate_hz, FilterOptions
   return differentiate(std::move(longer), filter, {}).q.segment(pad, n);
 }
 
+// the measured motion without what its encoder adds
 Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const& filter) {
   if (is_last_resort(recording)) return differentiate(recording, filter, {}).q;
   return smoothed(recording.position, recording.rate_hz, filter);

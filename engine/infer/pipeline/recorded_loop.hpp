@@ -47,7 +47,8 @@ RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint
 RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter);
 
 // The joint is driven by the recorded torque, low-passed by `filter`, and led slowly by errors of the smoothed motion:
-// so its friction turns round by itself, as it did in the recording, and not where a smooth motion says
+// so its friction turns round by itself, as it did in the recording, and not where a smooth motion says. The law sees
+// the position before the encoder's steps; there is no controller, and `source` is tracking
 RecordedLoop torque_fed_loop(Recording const& recording, double inertia, FilterOptions const& filter);
 
 }  // namespace torquescope
