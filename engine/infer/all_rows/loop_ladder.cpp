@@ -153,39 +153,21 @@ class Ladder {
     MoveRefusal refusal = MoveRefusal::none;
   };
 
-  // Each is followed a little. What then gains less than half of the best that nothing speaks against is no tie with
-  // it, and goes no further unless all ties are refused in the end
+  // each is followed to its end, unless it has come to a bound before
   std::vector<TriedMove> tried(Member const& parent, std::vector<ScannedMove> const& asked) const {
-    constexpr double half = 0.5;
     std::vector<TriedMove> all(asked.size());
-    auto const gain = [&](TriedMove const& one) { return gain_of(parent.fit, one.fit, q_.counts); };
     parallel_for(all.size(), q_.threads, [&](std::size_t i, int) {
-      all[i].fit = begun_with(parent.fit, asked[i].move, asked[i].starts);
-      if (all[i].fit.fit.failed || !(gain(all[i]) > 0.0))
-        all[i].refusal = MoveRefusal::failed_fit;
-      else if (is_at_bound(q_, parent.fit, all[i].fit, asked[i].move))
-        all[i].refusal = MoveRefusal::at_bound;
-    });
-    double most = 0.0;
-    for (auto const& one : all)
-      if (one.refusal == MoveRefusal::none) most = std::max(most, gain(one));
-    std::vector<std::size_t> first, others;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (all[i].refusal == MoveRefusal::none) (gain(all[i]) < half * most ? others : first).push_back(i);
-    auto const follow = [&](std::vector<std::size_t> const& which) {
-      parallel_for(which.size(), q_.threads, [&](std::size_t k, int) {
-        TriedMove& one = all[which[k]];
+      TriedMove& one = all[i];
+      one.fit = begun_with(parent.fit, asked[i].move, asked[i].starts);
+      if (one.fit.fit.failed) {
+        one.refusal = MoveRefusal::failed_fit;
+      } else if (is_at_bound(q_, parent.fit, one.fit, asked[i].move)) {
+        one.refusal = MoveRefusal::at_bound;
+      } else {
         one.fit = fitted(q_, one.fit.point);
-        one.refusal = refusal_of(parent, one.fit, asked[which[k]].move);
-      });
-      return std::any_of(which.begin(), which.end(),
-                         [&](std::size_t i) { return all[i].refusal == MoveRefusal::none; });
-    };
-    if (!follow(first)) {
-      follow(others);
-    } else {
-      for (std::size_t const i : others) all[i].refusal = MoveRefusal::smaller;
-    }
+        one.refusal = refusal_of(parent, one.fit, asked[i].move);
+      }
+    });
     return all;
   }
 
