@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/effects/carry_over.hpp"
 #include "engine/simulate/rollout/drive_law.hpp"
 
 namespace torquescope {
@@ -65,9 +66,15 @@ void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts c
 }
 
 bool is_lower(DecisionFacts const& scan, LoopFacts const& loop, double least_fall) {
+  // what happens once, or runs by itself, may not be in the recordings to predict
+  bool const is_of_clock = std::all_of(scan.accepted.begin(), scan.accepted.end(),
+                                       [](LawFacts const& law) { return is_clock_bound(*law.effect); });
+  auto const judged = [&](ModelErrors const& errors) {
+    return is_of_clock && !scan.accepted.empty() ? errors.held_out : errors.judged();
+  };
   // rows that say little may not be predicted worse, either
   if (!loop.decides() || loop.kept.empty())
-    return scan.weighed_final.judged() <= (1.0 - least_fall) * scan.weighed_baseline.judged() &&
+    return judged(scan.weighed_final) <= (1.0 - least_fall) * judged(scan.weighed_baseline) &&
            scan.final.judged() <= scan.baseline.judged();
   LoopErrors const& before = loop.has_validation ? loop.base_validation : loop.base_train;
   LoopErrors const& after = loop.has_validation ? loop.final_validation : loop.final_train;

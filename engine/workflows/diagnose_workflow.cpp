@@ -193,7 +193,7 @@ Diagnosis diagnose_one_joint(Experiment::Parts const& parts, int threads, TwinEx
   JobInput const job(parts, threads, exchange);
   Decider const decider = decider_of(parts.diagnose.decider);
   auto const on_all_rows = [&] { return diagnose_on_all_rows(job.input(), sink).diagnosis; };
-  if (decider == Decider::all_rows) return on_all_rows();
+  if (decider == Decider::all_rows || decider == Decider::by_job) return on_all_rows();
   Diagnosis diagnosis = diagnose_joint(job.input(), sink).diagnosis;
   if (decider == Decider::both) diagnosis.joints.front().decision = on_all_rows().joints.front().decision;
   bool const is_whole = parts.diagnose.ablations().empty();

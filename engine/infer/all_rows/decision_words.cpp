@@ -78,6 +78,8 @@ std::string word(MoveRefusal refusal) {
       return "failed_fit";
     case MoveRefusal::at_bound:
       return "at_bound";
+    case MoveRefusal::too_small:
+      return "too_small";
     case MoveRefusal::not_predicted:
       return "not_predicted";
   }

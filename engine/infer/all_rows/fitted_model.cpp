@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/fit/statistics/block_jackknife.hpp"
+#include "engine/infer/all_rows/own_clock.hpp"
 #include "engine/infer/all_rows/score.hpp"
 
 namespace torquescope {
@@ -71,10 +72,14 @@ double validation_error(JointStrips const& rows, FittedModel const& by) {
   return std::sqrt(energy / rows.validation_energy);
 }
 
-ModelErrors errors_of(JointStrips const& rows, FittedModel const& by) {
+double error_on_folds(JointStrips const& rows, FittedModel const& by, FoldKind kind) {
   Score const score(by.fitted->base(), by.fitted->residual(), by.fitted->guard());
+  return std::sqrt(score.left(kind)[0] / rows.training_energy);
+}
+
+ModelErrors errors_of(JointStrips const& rows, FittedModel const& by) {
   return {std::sqrt(by.fitted->chosen().fit.energy() / rows.training_energy),
-          std::sqrt(score.left()[0] / rows.training_energy), validation_error(rows, by)};
+          error_on_folds(rows, by, FoldKind::whole), validation_error(rows, by)};
 }
 
 std::vector<FittedNumber> numbers_of(FittedModel const& by) {
@@ -101,13 +106,15 @@ PredictedRows predicted(FittedModel const& by, Strip const& strip) {
   double const late_s = by.fitted->chosen().late_s;
   // without the offsets of further recordings
   Eigen::VectorXd const parameters = by.fitted->parameters().head(on.parameters());
-  auto const samples = treated_samples(on, late_s, parameters, by.fitted->chosen().fit.sticking);
+  Eigen::VectorXd const carried = without_clock(*by.model, parameters);
+  auto const samples = treated_samples(on, late_s, carried, by.fitted->chosen().fit.sticking);
   PredictedRows rows;
   rows.torque = on_rows(strip, strip.torque).col(0);
-  rows.residual = torque_on_rows(on, samples, late_s) - model_on_rows(on, samples) * parameters;
+  rows.residual = torque_on_rows(on, samples, late_s) - model_on_rows(on, samples) * carried;
   Eigen::VectorXd const constant = on_rows(strip, samples.front().weight).col(0);
   if (double const whole = constant.squaredNorm(); whole > 0.0)
     rows.residual -= constant * (constant.dot(rows.residual) / whole);
+  rows.residual = less_own_clock({on, samples, parameters, constant}, std::move(rows.residual));
   return rows;
 }
 

@@ -2,7 +2,7 @@
 // One model of a joint fitted to its training recordings, and what it leaves of them and of others.
 //
 // Errors     ||residual|| / ||torque|| over all rows of the filtered torque; inside the interval of static friction a
-//            residual is zero. Of other recordings the offset alone is fitted
+//            residual is zero. Of other recordings the offset is fitted, and what effects of a clock are there
 // Threads    plain records, pure functions
 // Source     engine/infer/all_rows/THEORY.md, Rows
 
@@ -36,6 +36,8 @@ FittedModel fitted_model(JointStrips const& rows, Regressor const& regressor, st
                          FittedStrips const* sizes, DelayChoice const& delay);
 
 ModelErrors errors_of(JointStrips const& rows, FittedModel const& by);
+// on held-out folds of training
+double error_on_folds(JointStrips const& rows, FittedModel const& by, FoldKind kind);
 double validation_error(JointStrips const& rows, FittedModel const& by);  // NaN without validation recordings
 
 // values with their deviations over tenths of the rows: of the model's columns, then of the laws' shapes

@@ -13,6 +13,7 @@
 #include "engine/infer/all_rows/law_trial.hpp"
 #include "engine/infer/all_rows/replicate_gains.hpp"
 #include "engine/infer/all_rows/row_weights.hpp"
+#include "engine/infer/all_rows/shape_fit.hpp"
 #include "engine/infer/all_rows/smooth_correction.hpp"
 #include "engine/infer/all_rows/sticking_shape.hpp"
 #include "engine/simulate/rollout/effective_samples.hpp"
@@ -214,11 +215,18 @@ class Search {
       law->refusal = Refusal::none;
       accepted_.push_back(*law);
       // once more, with the loads and levels that the joint has beside the law: without it they are bent
-      result_.final = fitted_with(effects_now(), *one.with.fitted);
-      judged_ = errors_of(rows(), result_.final).judged();
+      fit_final(*one.with.fitted);
       return true;
     }
     return false;
+  }
+
+  // with all shapes fitted together
+  void fit_final(FittedStrips const& sizes) {
+    auto const with = [&](std::vector<ShapedEffect> effects) { return fitted_with(std::move(effects), sizes); };
+    result_.final = with_fitted_shapes(with(effects_now()), with);
+    for (std::size_t i = 0; i < accepted_.size(); ++i) accepted_[i].shape = result_.final.model->effects()[i].shape;
+    judged_ = errors_of(rows(), result_.final).judged();
   }
 
   // the torque of a law of which as many laws as not would come out: S_0 falls by D / n_eff in its logarithm
@@ -284,7 +292,7 @@ class Search {
   }
 
   // an error on judged rows, by what is worth a name
-  bool is_higher(double judged) const { return (1.0 - q_.numbers.least_fall) * judged > judged_; }
+  bool is_higher(double judged, double than) const { return (1.0 - q_.numbers.least_fall) * judged > than; }
 
   // laws that could stand in its place about as well; other recordings say which of them stands there
   void find_rivals(std::size_t law) {
@@ -302,12 +310,13 @@ class Search {
     auto const questions = law_questions(laws, scales(), shortest_way());
     auto const findings = scan_recording(questions, *without.fitted, score, kind, q_.threads);
     double const gain = gain_beside(without, law), judged = errors_of(rows(), without).judged();
+    double const as_it_is = kind == FoldKind::interleaved ? error_on_folds(rows(), result_.final, kind) : judged_;
     auto tried = tried_laws(q_, trial_model(without, effects, score, judged), questions, findings,
                             first_of(by_value(gains_of(findings)), q_.numbers.refined), kind);
     std::erase_if(tried, [&](TriedLaw const& one) {
       double const own = level_beside(effect, one.facts.effect);
       double const least = gain - std::max(level_beside(effect, effect), own);
-      bool const is_as_good = one.facts.gain >= least || !is_higher(one.facts.judged_after);
+      bool const is_as_good = one.facts.gain >= least || !is_higher(one.facts.judged_after, as_it_is);
       return one.facts.refusal != Refusal::none || one.facts.gain < own || !is_as_good;
     });
     accepted_[law].gain = gain;
@@ -318,7 +327,7 @@ class Search {
       return a.facts.judged_after < b.facts.judged_after;
     });
     if (rows().validation.empty() || best == tried.end()) return;
-    if (best->facts.judged_after < judged_) stand_instead(law, std::move(*best));
+    if (best->facts.judged_after < as_it_is) stand_instead(law, std::move(*best));
   }
 
   // Every link has a weight unless its axis is upright, few have a spring: where both serve, the weight stands first.
@@ -326,7 +335,7 @@ class Search {
   std::vector<TriedLaw>::iterator weight_in_place_of(Effect const& effect, std::vector<TriedLaw>& tried) const {
     if (effect.family() != EffectFamily::static_position || effect.is_weight()) return tried.end();
     return std::find_if(tried.begin(), tried.end(), [&](TriedLaw const& one) {
-      bool const is_refuted = !rows().validation.empty() && is_higher(one.facts.judged_after);
+      bool const is_refuted = !rows().validation.empty() && is_higher(one.facts.judged_after, judged_);
       return one.facts.effect->is_weight() && !is_refuted;
     });
   }
@@ -337,12 +346,12 @@ class Search {
     by.facts.rivals = std::move(place.rivals);
     by.facts.p = place.p;
     by.facts.level = level_of(by.facts.effect);
-    judged_ = by.facts.judged_after;
     // the model has its laws in the order of the names
     std::rotate(accepted_.begin() + static_cast<std::ptrdiff_t>(law),
                 accepted_.begin() + static_cast<std::ptrdiff_t>(law) + 1, accepted_.end());
     accepted_.back() = std::move(by.facts);
     result_.final = std::move(by.with);
+    judged_ = errors_of(rows(), result_.final).judged();
   }
 
   // laws of a clock explain what any incomplete model leaves

@@ -35,6 +35,7 @@ enum class MoveRefusal {
   smaller,        // another move of this step gains more
   failed_fit,     // it ends above its parent: the search, not the law, has failed
   at_bound,       // a number at an end of what it can be
+  too_small,      // its number is within what the recording can tell
   not_predicted,  // recordings that no fit has seen are not simulated better
 };
 

@@ -142,9 +142,15 @@ class Ladder {
     return after.both() < (1.0 - q_.numbers.least_fall) * before.both();
   }
 
+  bool is_too_small(LoopFit const& fit, std::size_t move) const {
+    double const least = q_.moves[move].least;
+    return least > 0.0 && numbers_of(q_, fit, move).front().value < least;
+  }
+
   MoveRefusal refusal_of(Member const& parent, LoopFit const& fit, std::size_t move) const {
     if (fit.fit.failed || !(gain_of(parent.fit, fit, q_.counts) > 0.0)) return MoveRefusal::failed_fit;
     if (is_at_bound(q_, parent.fit, fit, move)) return MoveRefusal::at_bound;
+    if (is_too_small(fit, move)) return MoveRefusal::too_small;
     return predicts_better(parent.fit.judged(q_), fit.judged(q_)) ? MoveRefusal::none : MoveRefusal::not_predicted;
   }
 

@@ -22,6 +22,7 @@ namespace torquescope {
 struct LoopMove {
   LoopSubject subject{};
   std::vector<std::vector<double>> starts{};  // shapes of the law, or the numbers of one of the drive; at least one
+  double least = 0.0;                         // a first number of less is no name
 };
 
 struct LoopQuestion {

@@ -73,7 +73,7 @@ std::vector<LoopMove> drive_moves(LoopSetting const& loop, std::vector<RolloutTr
     LoopKey const own = law->keys.front();
     bool const is_free = std::find(loop.free.begin(), loop.free.end(), own) != loop.free.end();
     if (is_free || loop.values[own] != facts_of(own).none) continue;
-    LoopMove move{{nullptr, own}, {}};
+    LoopMove move{{nullptr, own}, {}, law->least_samples * scales.sample_s};
     for (auto const& start : law->starts(scales))
       if (law->adds || (start.front() > facts_of(own).least && start.front() < facts_of(own).most))
         move.starts.push_back(start);

@@ -34,9 +34,25 @@ Eigen::MatrixXd weighed(FittedStrips const& fitted, Eigen::MatrixXd columns) {
   return columns;
 }
 
-}  // namespace
+struct RowRange {
+  Eigen::Index first = 0, count = 0;
+};
 
-SmoothCorrection best_correction(FittedStrips const& fitted, Score const& score, Eigen::Index signal) {
+// all rows; and those of each recording, where there are several: what one has and the others have not
+std::vector<RowRange> where_to_ask(FittedStrips const& fitted) {
+  std::vector<RowRange> ranges{{0, fitted.on().rows()}};
+  if (fitted.strips().size() < 2) return ranges;
+  Eigen::Index first = 0;
+  for (auto const& strip : fitted.strips()) {
+    ranges.push_back({first, static_cast<Eigen::Index>(strip.rows.size())});
+    first += ranges.back().count;
+  }
+  return ranges;
+}
+
+using AxisColumns = std::pair<SignatureAxis, Eigen::MatrixXd>;
+
+std::vector<AxisColumns> columns_of_axes(FittedStrips const& fitted) {
   Eigen::VectorXd const q = at_rows(
       fitted, [](Strip const& one) -> auto const& { return one.motion.q; });
   Eigen::VectorXd const dq = at_rows(
@@ -48,21 +64,36 @@ SmoothCorrection best_correction(FittedStrips const& fitted, Score const& score,
   Eigen::VectorXd const side = at_rows(
       fitted, [](Strip const& one) -> auto const& { return one.direction; });
   Eigen::MatrixXd const places = hats(q, knots);
-  std::vector<std::pair<SignatureAxis, Eigen::MatrixXd>> const axes{
-      {SignatureAxis::position, places},
-      {SignatureAxis::position, side.asDiagonal() * places},
-      {SignatureAxis::velocity, hats(dq, knots)},
-      {SignatureAxis::acceleration, hats(ddq, knots)},
-      {SignatureAxis::time, hats(time, knots)}};
+  std::vector<AxisColumns> axes{{SignatureAxis::position, places},
+                                {SignatureAxis::position, side.asDiagonal() * places},
+                                {SignatureAxis::velocity, hats(dq, knots)},
+                                {SignatureAxis::acceleration, hats(ddq, knots)},
+                                {SignatureAxis::time, hats(time, knots)}};
+  for (auto& [axis, columns] : axes) columns = weighed(fitted, std::move(columns));
+  return axes;
+}
+
+Eigen::MatrixXd only_in(RowRange const& range, Eigen::MatrixXd const& columns) {
+  Eigen::MatrixXd of = Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
+  of.middleRows(range.first, range.count) = columns.middleRows(range.first, range.count);
+  return of;
+}
+
+}  // namespace
+
+SmoothCorrection best_correction(FittedStrips const& fitted, Score const& score, Eigen::Index signal) {
+  std::vector<AxisColumns> const axes = columns_of_axes(fitted);
   SmoothCorrection best;
-  for (auto const& [axis, columns] : axes) {
-    OrthonormalGroup const group = orthonormal_group(
-        weighed(fitted, columns), score.basis(), std::vector<bool>(static_cast<std::size_t>(columns.cols()), false));
-    double const gain = score.gain(group, signal);
-    if (gain <= best.gain) continue;
-    double const energy = (group.q.transpose() * score.signals().col(signal)).squaredNorm();
-    best = {axis, gain, std::sqrt(energy / static_cast<double>(score.signals().rows()))};
-  }
+  for (auto const& range : where_to_ask(fitted))
+    for (auto const& [axis, columns] : axes) {
+      OrthonormalGroup const group =
+          orthonormal_group(only_in(range, columns), score.basis(),
+                            std::vector<bool>(static_cast<std::size_t>(columns.cols()), false));
+      double const gain = score.gain(group, signal);
+      if (gain <= best.gain) continue;
+      double const energy = (group.q.transpose() * score.signals().col(signal)).squaredNorm();
+      best = {axis, gain, std::sqrt(energy / static_cast<double>(score.signals().rows()))};
+    }
   return best;
 }
 

@@ -2,7 +2,7 @@
 // Whether anything is left that goes with the motion, whatever its law: D of smooth functions of one axis each.
 //
 // Axes       position, position where the joint moves back, velocity, acceleration, time; piecewise linear, 12 knots
-// Rows       of the motion at the rows, not filtered
+// Rows       of the motion at the rows, not filtered; of all recordings together, and of each alone
 // Threads    pure functions
 // Source     engine/infer/all_rows/THEORY.md, Adequacy
 

@@ -37,6 +37,8 @@ struct DriveLaw {
   std::vector<LoopKey> keys;  // the first is its own: no other law has it
   bool adds;                  // its first number begins at zero and leaves the rest as it is
   std::vector<std::vector<double>> (*starts)(DriveScales const&);  // empty: these recordings say nothing of it
+  // Samples: a first number of less is within what a recording can tell of when a sample was taken; no name
+  double least_samples = 0.0;
 };
 
 std::span<DriveLaw const* const> drive_laws();

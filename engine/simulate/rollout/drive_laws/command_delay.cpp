@@ -14,6 +14,7 @@ DriveLaw const& command_delay_law() {
       .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
         return {{0.1 * of.sample_s}, {0.5 * of.sample_s}, {2.0 * of.sample_s}, {0.02}, {0.06}};
       },
+      .least_samples = 0.5,
   };
   return law;
 }
