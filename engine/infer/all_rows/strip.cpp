@@ -20,7 +20,7 @@ constexpr double per_band = 2.56, per_cutoff = 6.0;  // samples a second for eac
 constexpr double below_half_of_rate = 0.4;
 constexpr double noise_span = 4.0;      // of white noise, in standard deviations
 constexpr double reversal_steps = 1.5;  // of the encoder, before a direction counts
-constexpr double quiet_periods = 0.25;  // of the cut-off, to either side
+constexpr double quiet_periods = 0.25;  // of the motion's cut-off, to either side
 
 FilterOptions driving_options(FilterOptions options, double rate_hz) {
   constexpr double most_of_rate = 0.4;
@@ -211,7 +211,8 @@ Strip strip_of(Recording const& recording, std::shared_ptr<StripFilters const> c
   strip.direction = thinned(below_half_rate(direction, *filters).col(0), first, step);
   strip.sides.resize(strip.direction.size(), sides.cols());
   for (Eigen::Index k = 0; k < sides.cols(); ++k) strip.sides.col(k) = thinned(sides.col(k), first, step);
-  double const cutoff_hz = filters->cutoff_hz > 0.0 ? filters->cutoff_hz : below_half_of_rate * filters->rate_hz;
+  double const band_hz = filters->options.cutoff_hz;
+  double const cutoff_hz = band_hz > 0.0 ? band_hz : below_half_of_rate * filters->rate_hz;
   auto const reach = static_cast<Eigen::Index>(std::ceil(quiet_periods / cutoff_hz * filters->rate_hz));
   auto const quiet = quiet_samples(recording.position, reach, strip.resolution);
   for (Eigen::Index k = first; k < recording.position.size(); k += step)
