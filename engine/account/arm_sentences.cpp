@@ -103,6 +103,10 @@ std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& f
   return text + ".";
 }
 
+std::string several_recordings_sentence(std::vector<std::string> const& recordings) {
+  return fmt::format("Parameters are fitted to {} together.", name_list(recordings, "and"));
+}
+
 std::string too_few_rows_sentence(std::vector<std::string> const& recordings) {
   return fmt::format("{} {} too few rows of this joint moving one way to judge it.", name_list(recordings, "and"),
                      recordings.size() == 1 ? "has" : "have");

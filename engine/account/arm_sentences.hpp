@@ -30,6 +30,9 @@ struct WholeArmFacts {
 };
 std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& facts);
 
+// "Parameters are fitted to monday.csv and tuesday.csv together."
+std::string several_recordings_sentence(std::vector<std::string> const& recordings);
+
 // "tuesday.csv has too few rows of this joint moving one way to judge it."
 std::string too_few_rows_sentence(std::vector<std::string> const& recordings);
 

@@ -153,10 +153,4 @@ std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& 
       which_joint(joint), omnibus_text(joint), refused->name, refused->reason);
 }
 
-std::string all_samples_sentence(WhyAllSamples why) {
-  if (why == WhyAllSamples::could_not_ask)
-    return "All samples decide: too few rows move one way, or no loop holds the joint on them.";
-  return "All samples decide: rows that move one way explain nothing.";
-}
-
 }  // namespace torquescope

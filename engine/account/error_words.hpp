@@ -45,8 +45,4 @@ std::string likeness_sentence(JointDiagnosis const& joint);
 // candidate would make. nothing_fits: a clause
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
 
-// why all samples decide although moving rows were asked
-enum class WhyAllSamples { explain_nothing, could_not_ask };
-std::string all_samples_sentence(WhyAllSamples why);
-
 }  // namespace torquescope

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/account/arm_sentences.hpp"
 #include "engine/account/error_words.hpp"
 #include "engine/account/excitation_advice.hpp"
 #include "engine/account/sentences.hpp"
@@ -23,6 +24,7 @@
 #include "engine/fit/statistics/block_jackknife.hpp"
 #include "engine/infer/all_rows/decision_verdict.hpp"
 #include "engine/infer/all_rows/decision_words.hpp"
+#include "engine/infer/all_rows/delay_decision.hpp"
 #include "engine/infer/all_rows/joint_decision.hpp"
 #include "engine/infer/all_rows/kept_errors.hpp"
 #include "engine/infer/all_rows/loop_stage.hpp"
@@ -30,6 +32,7 @@
 #include "engine/infer/locate/mismatch_map.hpp"
 #include "engine/infer/replicates/echoed_reference.hpp"
 #include "engine/infer/search/candidate_table.hpp"
+#include "engine/infer/search/channel_timing.hpp"
 #include "engine/infer/search/parameter_intervals.hpp"
 #include "engine/infer/validation/unseen_record.hpp"
 
@@ -84,6 +87,7 @@ class AllRowsWork {
     std::vector<Recording> training{without_echoed_reference(from_zero(input_.train))}, validation;
     auto why = verdict_of(Verdict::data_fault, [&] { return first_look_.look(training.front()); });
     joint_.remarks = first_look_.remarks();
+    if (input_.further_training > 0) joint_.remarks.push_back(several_recordings_sentence(training_names(input_)));
     if (!why && input_.validate.empty()) why = first_look_.place_is_time();
     if (why) return hopeless(*why);
     for (std::size_t i = 0; i < input_.validate.size(); ++i) {
@@ -178,6 +182,7 @@ class AllRowsWork {
                                  [](NamedEffect const& one) { return !one.equivalent.empty(); });
     }
     diagnosis_.verdict = verdict_from(of);
+    tell_timing(decision);
     draw(decision, question);
     if (joint_.effects.empty() && !of.neighbours_predict) nothing_named(facts);
     if (diagnosis_.verdict == Verdict::data_fault && !joint_.effects.empty())
@@ -218,10 +223,18 @@ class AllRowsWork {
     }
   }
 
+  // within what a recording can tell of when its samples were taken: no name, but a number that people need
+  void tell_timing(JointDecision const& decision) {
+    DelayFacts const& delay = decision.facts.delay;
+    bool const is_clear = std::abs(delay.late_s) > jackknife_quantile * delay.deviation_s;
+    if (!is_clear || delay.is_named || allowed_delay(*decision.final.fitted) != delay.late_s) return;
+    joint_.timing_sentence = timing_sentence(delay.late_s, input_.train.rate_hz);
+  }
+
   void draw(JointDecision const& decision, DecisionQuestion const& question) {
     joint_.map = map_of(decision, input_.threads);
     joint_.traces = traces_of(decision, question);
-    joint_.budget = budget_of(decision);
+    joint_.budget = budget_of(decision, first_look_.parameter_share());
     tell_mismatch(decision);
     if (joint_.effects.empty()) {
       joint_.budget.unexplained += joint_.budget.missing_physics;
@@ -249,6 +262,7 @@ class AllRowsWork {
       double const chance = replicates.colwise().squaredNorm().mean();
       return std::sqrt(std::max(0.0, energy - chance) / static_cast<double>(replicates.rows()));
     };
+    joint_.twin_energy = energies_of(decision.baseline, decision.baseline_replicates);
     joint_.omnibus_p = steps.front().correction.p;
     joint_.mismatch_rms = beyond(decision.baseline, decision.baseline_replicates);
     joint_.left_rms = beyond(decision.final, decision.final_replicates);

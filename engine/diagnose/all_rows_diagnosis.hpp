@@ -14,7 +14,7 @@
 namespace torquescope {
 
 // which decision a job asks for: that on moving rows, that on all, or the first with the other beside it
-enum class Decider { by_job, moving_rows, all_rows, both };  // by_job: "auto", of what the moving rows hold
+enum class Decider { by_job, moving_rows, all_rows, both };  // by_job: "auto"
 std::vector<std::string> decider_words();                    // of a job file, in that order
 Decider decider_of(std::string const& word);
 

@@ -47,13 +47,6 @@ std::string without_reference_sentence(bool is_echo) {
          "small effects hide (reference = \"COLUMN\" in recording.columns: what was commanded).";
 }
 
-std::string several_recordings_sentence(DiagnosisInput const& input) {
-  std::string further;
-  for (std::size_t i = 0; i < input.further_training; ++i)
-    further += (i + 1 == input.further_training ? " and " : ", ") + input.validate[i].name;
-  return "Parameters are fitted to " + input.train.name + further + " together.";
-}
-
 LeftOut told(LeftOutRows const& rows) {
   return {rows.time_share(), rows.energy_share(), std::sqrt(rows.energy / rows.torque),
           std::sqrt(rows.after / rows.torque), rows.torque};
@@ -101,7 +94,7 @@ class JointWork {
     auto why = verdict_of(Verdict::data_fault, [&] { return first_look_.look(recording); });
     joint_.train_relerr = first_look_.relerr();
     joint_.remarks = first_look_.remarks();
-    if (input_.further_training > 0) joint_.remarks.push_back(several_recordings_sentence(input_));
+    if (input_.further_training > 0) joint_.remarks.push_back(several_recordings_sentence(training_names(input_)));
     if (!why && input_.validate.empty()) why = first_look_.place_is_time();
     if (why) return hopeless(*why);
     OwnedRecordings others{{}, input_.further_training};
@@ -386,6 +379,12 @@ class JointWork {
 };
 
 }  // namespace
+
+std::vector<std::string> training_names(DiagnosisInput const& input) {
+  std::vector<std::string> names{input.train.name};
+  for (std::size_t i = 0; i < input.further_training; ++i) names.push_back(input.validate[i].name);
+  return names;
+}
 
 JointOutcome diagnose_joint(DiagnosisInput const& input, StageSink const& progress) {
   return JointWork(input, progress).run();

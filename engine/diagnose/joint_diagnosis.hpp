@@ -39,6 +39,9 @@ struct DiagnosisInput {
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 
+// of all recordings that are fitted
+std::vector<std::string> training_names(DiagnosisInput const& input);
+
 // torque of an effect, per sample: of the first training recording, then of each other
 using LawTorques = std::vector<Eigen::VectorXd>;
 

@@ -144,7 +144,14 @@ std::vector<TorqueTrace> traces_of(JointDecision const& decision, DecisionQuesti
   return traces;
 }
 
-Budget budget_of(JointDecision const& decision) {
+std::vector<double> energies_of(FittedModel const& by, Eigen::MatrixXd const& replicates) {
+  double const own = by.fitted->residual().head(replicates.rows()).squaredNorm();
+  std::vector<double> energies;
+  for (auto const& one : replicates.colwise()) energies.push_back(one.squaredNorm() / own);
+  return energies;
+}
+
+Budget budget_of(JointDecision const& decision, double parameter_share) {
   double const before = decision.baseline.fitted->residual().squaredNorm();
   double const after = decision.final.fitted->residual().squaredNorm();
   auto const rows = decision.final_replicates.rows();
@@ -152,9 +159,11 @@ Budget budget_of(JointDecision const& decision) {
   double const by_chance =
       decision.final_replicates.cols() > 0 ? decision.final_replicates.colwise().squaredNorm().mean() / own : 1.0;
   Budget budget;
-  budget.missing_physics = std::clamp(1.0 - after / before, 0.0, 1.0);
-  budget.noise = (1.0 - budget.missing_physics) * std::min(1.0, by_chance);
-  budget.unexplained = 1.0 - budget.missing_physics - budget.noise;
+  double const of_model = 1.0 - parameter_share, left = std::clamp(after / before, 0.0, 1.0);
+  budget.parameter_error = parameter_share;
+  budget.missing_physics = of_model * (1.0 - left);
+  budget.noise = of_model * left * std::min(1.0, by_chance);
+  budget.unexplained = of_model * left - budget.noise;
   return budget;
 }
 

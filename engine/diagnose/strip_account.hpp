@@ -23,7 +23,10 @@ EffectAccount account_of(JointDecision const& decision, MismatchRows const& rows
 // of the recordings to predict, else of training
 std::vector<TorqueTrace> traces_of(JointDecision const& decision, DecisionQuestion const& question);
 
-// shares of the baseline's energy in training: missing, unexplained, noise
-Budget budget_of(JointDecision const& decision);
+// squares that each replicate leaves of the first recording, over those that the recording leaves
+std::vector<double> energies_of(FittedModel const& by, Eigen::MatrixXd const& replicates);
+
+// shares of the baseline's energy in training: missing, unexplained, noise, beside what a simulator's numbers explain
+Budget budget_of(JointDecision const& decision, double parameter_share);
 
 }  // namespace torquescope

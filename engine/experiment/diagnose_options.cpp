@@ -77,12 +77,12 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
        {"shape_optimiser", &DiagnoseOptions::shape_optimiser, optimiser_names(),
         "what searches the shapes of an effect, its linear parameters solved inside (torquescope list optimisers)"},
        {"reversals", &DiagnoseOptions::reversals, reversal_words(),
-        "rows near reversals: left out, or weighed by what replicates of unknown sticking friction show there; both: "
+        "of moving rows: those near reversals left out, or weighed by what replicates of unknown sticking friction show there; both: "
         "weighed where too few rows are left without them"},
        {"decider", &DiagnoseOptions::decider, decider_words(),
-        "rows that a verdict is decided on: those that move one way, or all; both: the first decides, and the result "
-        "holds what the other says; auto: names by all rows of one joint where those that move one way explain "
-        "nothing"},
+        "rows that a verdict is decided on: all, or those that move one way; both: the latter decide, and the result "
+        "holds what all say; auto: all of one joint; of an arm, and with reversals or an ablation, those that move one "
+        "way"},
        {"null", &DiagnoseOptions::null, null_words(),
         "ablation, not for use: what chance is taken for; all but \"twins\" invent effects on clean recordings"},
        {"indirect_inference", &DiagnoseOptions::indirect_inference,

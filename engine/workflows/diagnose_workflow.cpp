@@ -166,39 +166,24 @@ Diagnosis with_moving_zero(Diagnosis diagnosis, std::vector<Finding> const& find
   return diagnosis;
 }
 
-// rows that move one way have explained nothing
-bool is_silent(Diagnosis const& diagnosis) {
-  return diagnosis.verdict == Verdict::unexplained || diagnosis.verdict == Verdict::insufficient;
-}
-
-bool asked_nothing(Diagnosis const& diagnosis) {
-  return diagnosis.verdict == Verdict::insufficient && diagnosis.joints.front().candidates.empty();
-}
-
-// The decision on all samples where it names something, or where the first one could not even ask; else the first one,
-// with what the other says beside it
-Diagnosis with_all_samples(Diagnosis first, Diagnosis all) {
-  bool const is_first = asked_nothing(first) && !asked_nothing(all);
-  bool const says_more = names_physics(all.verdict) || all.verdict == Verdict::data_fault;
-  if (is_first || says_more) {
-    all.reason += " " + all_samples_sentence(is_first ? WhyAllSamples::could_not_ask : WhyAllSamples::explain_nothing);
-    return all;
-  }
-  first.joints.front().decision = std::move(all.joints.front().decision);
-  return first;
+// "auto": all samples of one joint; moving rows of an arm, and where the job asks for what they alone know
+Decider decider_for(Experiment::Parts const& parts) {
+  Decider const asked = decider_of(parts.diagnose.decider);
+  if (asked != Decider::by_job) return asked;
+  DiagnoseOptions const usual;
+  bool const is_of_moving_rows =
+      !parts.diagnose.ablations().empty() || parts.diagnose.reversals != usual.reversals || parts.arm;
+  return is_of_moving_rows ? Decider::moving_rows : Decider::all_rows;
 }
 
 Diagnosis diagnose_one_joint(Experiment::Parts const& parts, int threads, TwinExchange* exchange,
                              StageSink const& sink) {
   JobInput const job(parts, threads, exchange);
-  Decider const decider = decider_of(parts.diagnose.decider);
+  Decider const decider = decider_for(parts);
   auto const on_all_rows = [&] { return diagnose_on_all_rows(job.input(), sink).diagnosis; };
-  if (decider == Decider::all_rows || decider == Decider::by_job) return on_all_rows();
+  if (decider == Decider::all_rows) return on_all_rows();
   Diagnosis diagnosis = diagnose_joint(job.input(), sink).diagnosis;
   if (decider == Decider::both) diagnosis.joints.front().decision = on_all_rows().joints.front().decision;
-  bool const is_whole = parts.diagnose.ablations().empty();
-  if (decider == Decider::by_job && is_whole && is_silent(diagnosis))
-    return with_all_samples(std::move(diagnosis), on_all_rows());
   return diagnosis;
 }
 
@@ -206,7 +191,7 @@ Diagnosis diagnose_whole_arm(Experiment::Parts const& parts, int threads, TwinEx
                              StageSink const& sink) {
   Section const filter = section_or_empty(parts.job, "filter");
   ArmDiagnosisInput const input = arm_input(parts, filter, threads, exchange);
-  Decider const decider = decider_of(parts.diagnose.decider);
+  Decider const decider = decider_for(parts);
   if (decider == Decider::all_rows) return diagnose_arm_on_all_rows(input, sink);
   Diagnosis diagnosis = diagnose_arm(input, sink);
   if (decider == Decider::both) {
@@ -239,6 +224,8 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
   ShardLock const lock(request.output, request.shard);
   std::optional<Shard> shard;
   if (request.shard.count > 1) shard.emplace(experiment, request, existed);
+  if (shard && request.tell && decider_for(experiment.parts()) == Decider::all_rows)
+    request.tell("note", "a decision on all samples is not shared: every shard makes all of it, the first one writes it");
   check_room({request.output, request.allow_full_disk, request.tell, "[output] samples = false"},
              diagnosis_bytes(experiment.parts()), request.output);
   TwinExchange* const exchange = shard ? &shard->twins() : nullptr;

@@ -114,20 +114,24 @@ class Verdicts(unittest.TestCase):
         self.assertIn("fitted to recorded.csv and further.csv together", both["reason"])
         # each predicted by the fit to the other
         self.assertLess(both["joints"][0]["augmented"]["cv_relerr"], 0.5 * both["joints"][0]["baseline"]["cv_relerr"])
-        for rows, further in ((self.with_spring(self.rows), self.other_rows),
-                              (self.rows, self.with_spring(self.other_rows))):
-            one = self.said_of(rows, further)
+        first = self.said_of(self.with_spring(self.rows), self.other_rows)
+        second = self.said_of(self.rows, self.with_spring(self.other_rows))
+        for one in first, second:
             self.assertEqual(one["joints"][0]["effects"], [], one["reason"])
-            self.assertEqual(one["verdict"], "unexplained", "what one has and the other has not is no clean joint")
+        self.assertEqual(first["verdict"], "unexplained", "what one has and the other has not is no clean joint")
+        # of the second all samples say p = 0.04, where 0.025 is asked; moving rows predict each recording by the other
+        second = self.said_of(self.rows, self.with_spring(self.other_rows), further_options='decider = "moving_rows"')
+        self.assertEqual(second["verdict"], "unexplained", second["reason"])
 
     def test_the_decision_on_all_samples_stands_beside_the_other_or_alone(self):
         sprung, other = self.sprung, self.sprung_too
         beside = self.said_of(sprung, unseen=other, further_options='decider = "both"\n')
         alone = self.said_of(sprung, unseen=other, further_options='decider = "all_rows"\n')
-        plain = self.said_of(sprung, unseen=other)
-        self.assertNotIn("decision", plain["joints"][0])
+        moving = self.said_of(sprung, unseen=other, further_options='decider = "moving_rows"\n')
+        self.assertEqual(self.said_of(sprung, unseen=other), alone, "of one joint all samples decide")
+        self.assertNotIn("decision", moving["joints"][0])
         decision = beside["joints"][0].pop("decision")
-        self.assertEqual(beside, plain, "the verdict is that of the rows that move one way")
+        self.assertEqual(beside, moving, "the verdict is that of the rows that move one way")
         self.assertEqual(alone["joints"][0]["decision"], decision)
         self.assertEqual(alone["verdict"], decision["verdict"])
         self.assertEqual([law["name"] for law in decision["accepted"]], ["spring"])
@@ -158,10 +162,17 @@ class Verdicts(unittest.TestCase):
         self.assertEqual([one["name"] for one in weighed["joints"][0]["effects"]], ["spring"])
         self.assertNotEqual(self.said_of(sound, filters=slow)["verdict"], "named")
 
-    def test_an_unseen_recording_with_too_few_rows_is_left_out_and_told(self):
-        sprung = self.with_spring(self.rows)
-        alone = self.said_of(sprung)
-        said = self.said_of(sprung, unseen=self.with_spring(self.other_rows)[:len(self.other_rows) // 10])
+    def test_a_short_unseen_recording_counts_with_its_samples(self):
+        said = self.said_of(self.sprung, unseen=self.sprung_too[:len(self.sprung_too) // 5])
+        self.assertEqual(said["verdict"], "named", said["reason"])
+        joint = said["joints"][0]
+        self.assertLess(joint["augmented"]["validation_relerr"], 0.5 * joint["baseline"]["validation_relerr"])
+
+    def test_of_moving_rows_an_unseen_recording_with_too_few_is_left_out_and_told(self):
+        sprung, moving = self.with_spring(self.rows), 'decider = "moving_rows"'
+        alone = self.said_of(sprung, further_options=moving)
+        short = self.with_spring(self.other_rows)[:len(self.other_rows) // 10]
+        said = self.said_of(sprung, unseen=short, further_options=moving)
         self.assertEqual(said["verdict"], "named", said["reason"])
         self.assertIn("too few rows", said["reason"])
         self.assertEqual(said["joints"][0]["augmented"]["cv_relerr"], alone["joints"][0]["augmented"]["cv_relerr"])
