@@ -72,14 +72,14 @@ double validation_error(JointStrips const& rows, FittedModel const& by) {
   return std::sqrt(energy / rows.validation_energy);
 }
 
-double error_on_folds(JointStrips const& rows, FittedModel const& by, FoldKind kind) {
+double error_on_folds(JointStrips const& rows, FittedModel const& by) {
   Score const score(by.fitted->base(), by.fitted->residual(), by.fitted->guard());
-  return std::sqrt(score.left(kind)[0] / rows.training_energy);
+  return std::sqrt(score.left()[0] / rows.training_energy);
 }
 
 ModelErrors errors_of(JointStrips const& rows, FittedModel const& by) {
   return {std::sqrt(by.fitted->chosen().fit.energy() / rows.training_energy),
-          error_on_folds(rows, by, FoldKind::whole), validation_error(rows, by)};
+          error_on_folds(rows, by), validation_error(rows, by)};
 }
 
 std::vector<FittedNumber> numbers_of(FittedModel const& by) {

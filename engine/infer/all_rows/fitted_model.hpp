@@ -37,7 +37,7 @@ FittedModel fitted_model(JointStrips const& rows, Regressor const& regressor, st
 
 ModelErrors errors_of(JointStrips const& rows, FittedModel const& by);
 // on held-out folds of training
-double error_on_folds(JointStrips const& rows, FittedModel const& by, FoldKind kind);
+double error_on_folds(JointStrips const& rows, FittedModel const& by);
 double validation_error(JointStrips const& rows, FittedModel const& by);  // NaN without validation recordings
 
 // values with their deviations over tenths of the rows: of the model's columns, then of the laws' shapes

@@ -310,7 +310,7 @@ class Search {
     auto const questions = law_questions(laws, scales(), shortest_way());
     auto const findings = scan_recording(questions, *without.fitted, score, kind, q_.threads);
     double const gain = gain_beside(without, law), judged = errors_of(rows(), without).judged();
-    double const as_it_is = kind == FoldKind::interleaved ? error_on_folds(rows(), result_.final, kind) : judged_;
+    double const as_it_is = kind == FoldKind::interleaved ? error_on_folds(rows(), result_.final) : judged_;
     auto tried = tried_laws(q_, trial_model(without, effects, score, judged), questions, findings,
                             first_of(by_value(gains_of(findings)), q_.numbers.refined), kind);
     std::erase_if(tried, [&](TriedLaw const& one) {

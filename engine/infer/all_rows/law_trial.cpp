@@ -38,9 +38,9 @@ TriedLaw tried(DecisionQuestion const& question, TrialModel const& beside, LawQu
   one.with = fitted_model(beside.rows, question.regressor, std::move(effects), beside.fitted.fitted.get(),
                           {DelaySearch::everywhere, question.numbers.longest_delay_s});
   bool const is_of_clock = kind == FoldKind::interleaved;
-  one.facts.judged_before = is_of_clock ? error_on_folds(beside.rows, beside.fitted, kind) : beside.judged;
+  one.facts.judged_before = is_of_clock ? error_on_folds(beside.rows, beside.fitted) : beside.judged;
   one.facts.judged_after =
-      is_of_clock ? error_on_folds(beside.rows, one.with, kind) : errors_of(beside.rows, one.with).judged();
+      is_of_clock ? error_on_folds(beside.rows, one.with) : errors_of(beside.rows, one.with).judged();
   one.facts.refusal = refusal_of(one.facts, refined, beside.scales, question.numbers);
   return one;
 }

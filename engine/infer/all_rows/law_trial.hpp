@@ -4,7 +4,7 @@
 // Size       a torque of at least delta of the torque's rms, and an error on judged rows that falls by least_fall
 // Bounds     no parameter beyond what it can be, no shape at an end of its range which is no law of its own
 // Judged     rows that no fit has seen: other recordings, else ten folds. Effects of an instant or a clock are another
-//            in each recording (own_clock.hpp), so they are judged on short folds of training
+//            in each recording (own_clock.hpp), so they are judged on folds of training
 // Threads    spreads laws over the threads of the question; same bits for any number
 // Source     engine/infer/all_rows/THEORY.md, The rules
 
