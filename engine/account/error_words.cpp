@@ -115,10 +115,11 @@ std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const
       change.level < 0.0 ? "less" : "more", percent_text(change.relerr_with), percent_text(change.relerr_before));
 }
 
-std::string way_out_of_a_fault(JointDiagnosis const& joint) {
+std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete) {
   std::string const mend = std::any_of(joint.effects.begin(), joint.effects.end(), comes_early)
                                ? "correct the channel, or record the torque that the drive gives instead of its command"
                                : "correct the channel, or record again";
+  if (!is_complete) return mend + "; what else is missing shows then";
   return unseen_is_other_sentence(joint).empty() ? mend + "; the model itself needs nothing more" : mend;
 }
 

@@ -35,7 +35,7 @@ std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const
 
 // where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen
 // recording agrees
-std::string way_out_of_a_fault(JointDiagnosis const& joint);
+std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete);
 
 // Of a joint with a closed gate. Where p is small, what kept it closed is said: a mismatch below what matters, or one
 // that is within the replicates' spread while no effect stands out

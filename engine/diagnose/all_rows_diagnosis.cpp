@@ -175,9 +175,12 @@ class AllRowsWork {
       if (std::isnan(joint_.augmented_train_relerr))
         if (auto const errors = kept_errors(question, decision, loop)) tell_errors_with_names(*errors);
       if (names.command_delay && !facts.delay.is_named) tell_errors_with_delay(facts);
-      // a torque that comes before its motion is a command that the drive follows late: no fault of a channel
+      // a torque that comes before its motion is a command that the drive follows late: no fault of a channel. One that
+      // comes after it is no physics, whatever else is named beside it
       bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
-      of.all_on_channel = !follows_command && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
+      bool const comes_after = facts.delay.is_named && facts.delay.late_s > 0.0;
+      bool const all_are = std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
+      of.all_on_channel = comes_after || (!follows_command && all_are);
       of.has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
                                  [](NamedEffect const& one) { return !one.equivalent.empty(); });
     }
@@ -186,7 +189,7 @@ class AllRowsWork {
     draw(decision, question);
     if (joint_.effects.empty() && !of.neighbours_predict) nothing_named(facts);
     if (diagnosis_.verdict == Verdict::data_fault && !joint_.effects.empty())
-      diagnosis_.way_out = way_out_of_a_fault(joint_);
+      diagnosis_.way_out = way_out_of_a_fault(joint_, of.is_complete);
   }
 
   void tell_errors_with_names(ModelErrors const& errors) {

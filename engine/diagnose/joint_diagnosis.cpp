@@ -331,7 +331,7 @@ class JointWork {
     joint_.explained_high = explained.high;
     mark_equivalent(joint_.candidates, joint_.effects);
     for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
-    if (decided.verdict == Verdict::data_fault) diagnosis_.way_out = way_out_of_a_fault(joint_);
+    if (decided.verdict == Verdict::data_fault) diagnosis_.way_out = way_out_of_a_fault(joint_, true);
     joint_.excitation = advice_for(joint_.effects);
   }
 

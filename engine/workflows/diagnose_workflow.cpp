@@ -225,7 +225,8 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
   std::optional<Shard> shard;
   if (request.shard.count > 1) shard.emplace(experiment, request, existed);
   if (shard && request.tell && decider_for(experiment.parts()) == Decider::all_rows)
-    request.tell("note", "a decision on all samples is not shared: every shard makes all of it, the first one writes it");
+    request.tell("note",
+                 "a decision on all samples is not shared: every shard makes all of it, the first one writes it");
   check_room({request.output, request.allow_full_disk, request.tell, "[output] samples = false"},
              diagnosis_bytes(experiment.parts()), request.output);
   TwinExchange* const exchange = shard ? &shard->twins() : nullptr;

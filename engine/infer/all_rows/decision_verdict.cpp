@@ -6,8 +6,8 @@ namespace torquescope {
 namespace {
 
 // beyond chance, and worth a name
-bool speaks_against(LawFacts const& law) {
-  return law.refusal == Refusal::none || law.refusal == Refusal::at_bound || law.refusal == Refusal::not_predicted;
+bool is_doubted(LawFacts const& law) {
+  return law.refusal == Refusal::at_bound || law.refusal == Refusal::not_predicted;
 }
 
 // a torque of which the error would fall by least_fall
@@ -21,11 +21,15 @@ bool is_worth_naming(double size, double error, DecisionNumbers const& numbers) 
 bool is_adequate(StepFacts const& step, DecisionNumbers const& numbers) {
   bool const counts = is_worth_naming(step.correction.size, step.error, numbers);
   if (counts && step.correction.p <= numbers.correction_alpha()) return false;
-  return bears_laws_of_clock(step);
+  // one that is refused is a second question about the model, as smooth functions are
+  return std::none_of(step.laws.begin(), step.laws.end(), [&](LawFacts const& law) {
+    return law.refusal == Refusal::none || (is_doubted(law) && law.p <= numbers.correction_alpha());
+  });
 }
 
 bool bears_laws_of_clock(StepFacts const& step) {
-  return std::none_of(step.laws.begin(), step.laws.end(), speaks_against);
+  return std::none_of(step.laws.begin(), step.laws.end(),
+                      [](LawFacts const& law) { return law.refusal == Refusal::none || is_doubted(law); });
 }
 
 bool is_complete(std::span<StepFacts const> steps, DecisionNumbers const& numbers) {
@@ -49,8 +53,9 @@ Verdict verdict_from(DecisionOutcome const& of) {
     if (!of.was_adequate) return Verdict::unexplained;
     return of.can_tell_little ? Verdict::insufficient : Verdict::none;
   }
-  if (!of.is_complete) return Verdict::partly;
+  // what else is missing shows once the channel is mended
   if (of.all_on_channel) return Verdict::data_fault;
+  if (!of.is_complete) return Verdict::partly;
   return of.has_class ? Verdict::one_of_class : Verdict::named;
 }
 

@@ -78,8 +78,8 @@ double error_on_folds(JointStrips const& rows, FittedModel const& by) {
 }
 
 ModelErrors errors_of(JointStrips const& rows, FittedModel const& by) {
-  return {std::sqrt(by.fitted->chosen().fit.energy() / rows.training_energy),
-          error_on_folds(rows, by), validation_error(rows, by)};
+  return {std::sqrt(by.fitted->chosen().fit.energy() / rows.training_energy), error_on_folds(rows, by),
+          validation_error(rows, by)};
 }
 
 std::vector<FittedNumber> numbers_of(FittedModel const& by) {

@@ -131,10 +131,11 @@ class Search {
     Eigen::VectorXd const gains = gains_of(findings);
     auto tried = tried_laws(q_, beside, questions, findings, first_of(by_value(gains), q_.numbers.refined), kind);
     tell("search", questions.size(), questions.size());
-    AskedLaws asked{std::vector<bool>(questions.size(), true), std::vector<bool>(questions.size(), false)};
+    std::vector<bool> const no_law(questions.size(), false);
+    AskedLaws asked{std::vector<bool>(questions.size(), true), no_law, no_law};
     for (auto const& one : tried) {
       Refusal const refusal = one.facts.refusal;
-      asked.open[one.question] = refusal == Refusal::none;
+      asked.open[one.question] = asked.nameable[one.question] = refusal == Refusal::none;
       asked.doubted[one.question] = refusal == Refusal::at_bound || refusal == Refusal::not_predicted;
     }
     ReplicateTask const task{result_.final, left_beside_law(tried),
@@ -376,8 +377,9 @@ class Search {
     for (std::size_t i = accepted_.size(); i-- > 0;) find_rivals(i);
     facts.accepted = accepted_;
     facts.delay = decided_delay(q_, rows(), result_.final, chance_of_delay_);
-    facts.delay.is_named = facts.delay.is_named && facts.is_complete;
     facts.weighed_final = errors_of(rows(), result_.final);
+    bool const is_more_than_is_left = facts.delay.size > facts.weighed_final.train;
+    facts.delay.is_named = facts.delay.is_named && (facts.is_complete || is_more_than_is_left);
     facts.parameters = numbers_of(result_.final);
     facts.baseline_late_s = result_.baseline.fitted->chosen().late_s;
     facts.baseline_parameters = numbers_of(result_.baseline);

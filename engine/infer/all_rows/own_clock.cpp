@@ -35,8 +35,8 @@ Eigen::VectorXd less_event(ElsewhereRows const& rows, Effect const& effect, Eige
   question.effect = &effect;
   question.scales = scales_during(rows.on.model().reference().scales, strip.motion.time_s);
   question.memory_rows = std::max<Eigen::Index>(strip.memory(), 1);
-  auto const own =
-      own_event(question, [&](auto const& shapes) { return columns_there(rows, effect, shapes); }, residual);
+  auto const own = own_event(
+      question, [&](auto const& shapes) { return columns_there(rows, effect, shapes); }, residual);
   if (!own) return residual;
   Eigen::MatrixXd const basis = orthonormal_basis(own->columns);
   return residual - basis * (basis.transpose() * residual);
@@ -69,13 +69,16 @@ Eigen::VectorXd less_own_clock(ElsewhereRows const& rows, Eigen::VectorXd residu
     if (!is_clock_bound(*one.effect)) continue;
     Eigen::MatrixXd const columns = columns_there(rows, *one.effect, {one.shape}).front();
     switch (carry_over(*one.effect)) {
-      case CarryOver::in_frequency: residual = less_wave(columns, std::move(residual)); break;
-      case CarryOver::in_part:
-        residual = less_share(columns * rows.parameters.segment(static_cast<Eigen::Index>(model.first_parameter(i)),
-                                                                width_of(one)),
-                              std::move(residual));
+      case CarryOver::in_frequency:
+        residual = less_wave(columns, std::move(residual));
         break;
-      default: residual = less_event(rows, *one.effect, std::move(residual));
+      case CarryOver::in_part:
+        residual = less_share(
+            columns * rows.parameters.segment(static_cast<Eigen::Index>(model.first_parameter(i)), width_of(one)),
+            std::move(residual));
+        break;
+      default:
+        residual = less_event(rows, *one.effect, std::move(residual));
     }
   }
   return residual;

@@ -65,8 +65,8 @@ class Replicates {
     return p <= alpha || p * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
   }
 
-  // The first of the laws in question has come out and no replicate reached it; or it is told of all of them, and
-  // whether the model is adequate
+  // A law that can be named has come out and no replicate reached it; or it is told of all of them, and whether the
+  // model is adequate
   bool is_decided() const {
     if (count() < 2) return false;
     Eigen::VectorXd const p = result_.chance.p(task_.gains);
@@ -75,8 +75,9 @@ class Replicates {
         !correction_ || is_told(empirical_p(*correction_, result_.corrections), q_.numbers.correction_alpha());
     for (Eigen::Index law = 0; law < p.size(); ++law) {
       auto const at = static_cast<std::size_t>(law);
-      if (task_.asked.open[at]) least = std::min(least, p[law]);
-      if (task_.asked.open[at] || task_.asked.doubted[at]) are_told = are_told && is_told(p[law], q_.numbers.alpha);
+      if (task_.asked.nameable[at]) least = std::min(least, p[law]);
+      if (task_.asked.open[at]) are_told = are_told && is_told(p[law], q_.numbers.alpha);
+      if (task_.asked.doubted[at]) are_told = are_told && is_told(p[law], q_.numbers.correction_alpha());
     }
     if (least * (static_cast<double>(count()) + 1.0) < 1.5 && least <= q_.numbers.alpha) return true;
     return count() >= fewest && are_told;

@@ -30,8 +30,9 @@ struct ReplicateGains {
 
 // of each question
 struct AskedLaws {
-  std::vector<bool> open{};     // nothing is known to speak against it
-  std::vector<bool> doubted{};  // bounds or judged rows do: beyond chance, it makes the model inadequate
+  std::vector<bool> open{};      // nothing is known to speak against it
+  std::vector<bool> nameable{};  // fitted, and nothing but chance can speak against it
+  std::vector<bool> doubted{};   // bounds or judged rows do: beyond chance, it makes the model inadequate
 };
 
 // of one step of the search

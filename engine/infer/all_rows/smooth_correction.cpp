@@ -86,9 +86,8 @@ SmoothCorrection best_correction(FittedStrips const& fitted, Score const& score,
   SmoothCorrection best;
   for (auto const& range : where_to_ask(fitted))
     for (auto const& [axis, columns] : axes) {
-      OrthonormalGroup const group =
-          orthonormal_group(only_in(range, columns), score.basis(),
-                            std::vector<bool>(static_cast<std::size_t>(columns.cols()), false));
+      OrthonormalGroup const group = orthonormal_group(
+          only_in(range, columns), score.basis(), std::vector<bool>(static_cast<std::size_t>(columns.cols()), false));
       double const gain = score.gain(group, signal);
       if (gain <= best.gain) continue;
       double const energy = (group.q.transpose() * score.signals().col(signal)).squaredNorm();

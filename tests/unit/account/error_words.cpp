@@ -109,7 +109,7 @@ TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind
   for (auto diagnosis : {example::invented_diagnosis(), example::invented_none(), example::invented_unexplained(),
                          example::invented_data_fault()}) {
     EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
-    EXPECT_THAT(way_out_of_a_fault(diagnosis.joints[0]), HasSubstr("; the model itself needs nothing more"));
+    EXPECT_THAT(way_out_of_a_fault(diagnosis.joints[0], true), HasSubstr("; the model itself needs nothing more"));
     JointDiagnosis& joint = diagnosis.joints[0];
     joint.train_relerr = 0.0091;
     joint.validation_relerr = 0.185;
@@ -117,7 +117,8 @@ TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind
     joint.augmented_validation_relerr = 0.184;
     joint.floor_relerr = 0.01;
     EXPECT_THAT(reason_sentence(diagnosis), HasSubstr(said));
-    EXPECT_THAT(way_out_of_a_fault(joint), Not(HasSubstr("needs nothing more")));
+    EXPECT_THAT(way_out_of_a_fault(joint, true), Not(HasSubstr("needs nothing more")));
+    EXPECT_THAT(way_out_of_a_fault(joint, false), Not(HasSubstr("needs nothing more")));
     // what naming mends was missing in training as well; and replicates that leave as much expect no less
     joint.augmented_validation_relerr = 0.02;
     EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));

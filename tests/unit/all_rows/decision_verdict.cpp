@@ -59,6 +59,9 @@ TEST(DecisionVerdict, AClassAFaultAndNeighboursAreTold) {
   EXPECT_EQ(verdict_from(of), Verdict::one_of_class);
   of.all_on_channel = true;
   EXPECT_EQ(verdict_from(of), Verdict::data_fault);
+  // the channel first: what else is missing shows once it is mended
+  of.is_complete = false;
+  EXPECT_EQ(verdict_from(of), Verdict::data_fault);
   of.neighbours_predict = true;
   EXPECT_EQ(verdict_from(of), Verdict::unexplained);
 }
@@ -71,6 +74,11 @@ TEST(DecisionVerdict, ALawThatBoundsRefuseSpeaksAgainstTheModel) {
   EXPECT_FALSE(is_adequate(step_with({law(0.01, Refusal::at_bound)}, 0.01), numbers));
   EXPECT_FALSE(is_adequate(step_with({law(0.01, Refusal::not_predicted)}, 0.01), numbers));
   EXPECT_FALSE(bears_laws_of_clock(step_with({law(0.01, Refusal::at_bound)}, 0.01)));
+  // the second question about one model: at half the level
+  EXPECT_TRUE(is_adequate(step_with({law(0.04, Refusal::at_bound)}, 0.01), numbers));
+  EXPECT_FALSE(is_adequate(step_with({law(0.04, Refusal::none)}, 0.01), numbers));
+  // effects of a clock are not asked beside such a doubt, either
+  EXPECT_FALSE(bears_laws_of_clock(step_with({law(0.04, Refusal::at_bound)}, 0.01)));
 }
 
 TEST(DecisionVerdict, ASmoothCorrectionCountsOnlyWithASize) {

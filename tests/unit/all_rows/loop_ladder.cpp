@@ -142,6 +142,16 @@ TEST(LoopLadder, FindsADelayOfTheCommand) {
   }
 }
 
+TEST(LoopLadder, ADelayBelowHalfASampleIsNoName) {
+  LoopFacts const facts = asked_of({.delay_s = 0.004}).climbed(1);
+  EXPECT_TRUE(facts.kept.empty());
+  auto const& moves = facts.steps.front().moves;
+  auto const delay = std::find_if(moves.begin(), moves.end(),
+                                  [](MoveFacts const& move) { return name_of(move.subject) == "command_delay"; });
+  ASSERT_NE(delay, moves.end());
+  EXPECT_EQ(delay->refusal, MoveRefusal::too_small);
+}
+
 TEST(LoopLadder, FindsCoggingWhereNothingActsOnTheCommand) {
   for (std::uint64_t const seed : {1u, 2u, 3u}) {
     LoopFacts const facts = asked_of({.cogging = 0.1, .seed = seed}).climbed(1);

@@ -25,6 +25,7 @@ struct GivenJoint {
   bool rests = false;
   double pace = 1.0;  // of the phase: another recording of the same joint moves at another one
   std::uint64_t seed = 1;
+  std::function<double(double t, double q)> timed{};  // of a clock or an instant
 };
 
 struct Phase {
@@ -76,7 +77,8 @@ inline Instant instant_of(GivenJoint const& joint, double t) {
 inline double torque_of(GivenJoint const& joint, double t) {
   auto const [q, dq, ddq, friction] = instant_of(joint, t);
   double const law = joint.law ? joint.law(q, dq) : 0.0;
-  return joint.inertia * ddq + joint.viscous * dq + joint.coulomb * friction + joint.offset + law;
+  return joint.inertia * ddq + joint.viscous * dq + joint.coulomb * friction + joint.offset + law +
+         (joint.timed ? joint.timed(t, q) : 0.0);
 }
 
 inline Recording recording_of(GivenJoint const& joint, double duration_s = 20.0, double rate_hz = 200.0) {
