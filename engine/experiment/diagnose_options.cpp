@@ -77,8 +77,8 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
        {"shape_optimiser", &DiagnoseOptions::shape_optimiser, optimiser_names(),
         "what searches the shapes of an effect, its linear parameters solved inside (torquescope list optimisers)"},
        {"reversals", &DiagnoseOptions::reversals, reversal_words(),
-        "of moving rows: those near reversals left out, or weighed by what replicates of unknown sticking friction show there; both: "
-        "weighed where too few rows are left without them"},
+        "of moving rows: those near reversals left out, or weighed by what replicates of unknown sticking friction "
+        "show there; both: weighed where too few rows are left without them"},
        {"decider", &DiagnoseOptions::decider, decider_words(),
         "rows that a verdict is decided on: all, or those that move one way; both: the latter decide, and the result "
         "holds what all say; auto: all of one joint; of an arm, and with reversals or an ablation, those that move one "

@@ -5,7 +5,8 @@
 //            times the band of the motion; rows are the samples that this filter keeps. drive: the same motion with a
 //            wider band at a rate of its own, for parts that have an inertia
 // Quiet      samples at which the raw position stays within one step of the encoder for half a period of the motion's
-//            cut-off: whether the joint moves there nobody can tell. Without steps, within four standard deviations of the position's noise
+//            cut-off: whether the joint moves there nobody can tell. Without steps, within four standard deviations of
+//            the position's noise
 // Direction  -1 or 1, kept until the position has come back by 1.5 steps; low-passed as the torque is
 // Left out   stretches that were filled, a torque at its limit, the filter's edges: nothing else
 // Shapes     motion, torque, direction, quiet: n at the laws' rate. Units: SI
