@@ -99,6 +99,7 @@ TEST(LoopVerdict, WhatSimulationsCallChanceDoesNotSpeakAgainstTheModel) {
   DecisionFacts scan = scanned({}, false);
   LawFacts refused{find_effect("spring")};
   refused.refusal = Refusal::not_predicted;
+  refused.p = 0.01;
   scan.steps.push_back({{refused}});
   MoveFacts spring{law("spring")};
   spring.refusal = MoveRefusal::chance;
