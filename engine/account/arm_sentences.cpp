@@ -107,6 +107,8 @@ std::string several_recordings_sentence(std::vector<std::string> const& recordin
   return fmt::format("Parameters are fitted to {} together.", name_list(recordings, "and"));
 }
 
+std::string refitted_clause(std::string const& effect) { return effect + " fitted to all of its rows"; }
+
 std::string too_few_rows_sentence(std::vector<std::string> const& recordings) {
   return fmt::format("{} {} too few rows of this joint moving one way to judge it.", name_list(recordings, "and"),
                      recordings.size() == 1 ? "has" : "have");

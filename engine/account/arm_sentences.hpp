@@ -33,6 +33,9 @@ std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& f
 // "Parameters are fitted to monday.csv and tuesday.csv together."
 std::string several_recordings_sentence(std::vector<std::string> const& recordings);
 
+// "payload_change fitted to all of its rows", of what a recording to predict has at another time or phase
+std::string refitted_clause(std::string const& effect);
+
 // "tuesday.csv has too few rows of this joint moving one way to judge it."
 std::string too_few_rows_sentence(std::vector<std::string> const& recordings);
 

@@ -34,7 +34,7 @@ std::string unseen_is_other_sentence(JointDiagnosis const& joint);
 std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const& change);
 
 // where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen
-// recording agrees
+// recording agrees, and where nothing else is left (is_complete)
 std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete);
 
 // Of a joint with a closed gate. Where p is small, what kept it closed is said: a mismatch below what matters, or one

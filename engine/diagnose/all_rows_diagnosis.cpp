@@ -21,6 +21,7 @@
 #include "engine/diagnose/neighbour_load.hpp"
 #include "engine/diagnose/recorded_unit.hpp"
 #include "engine/diagnose/strip_account.hpp"
+#include "engine/effects/carry_over.hpp"
 #include "engine/fit/statistics/block_jackknife.hpp"
 #include "engine/infer/all_rows/decision_verdict.hpp"
 #include "engine/infer/all_rows/decision_words.hpp"
@@ -186,6 +187,7 @@ class AllRowsWork {
     }
     diagnosis_.verdict = verdict_from(of);
     tell_timing(decision);
+    tell_refitted(question);
     draw(decision, question);
     if (joint_.effects.empty() && !of.neighbours_predict) nothing_named(facts);
     if (diagnosis_.verdict == Verdict::data_fault && !joint_.effects.empty())
@@ -232,6 +234,15 @@ class AllRowsWork {
     bool const is_clear = std::abs(delay.late_s) > jackknife_quantile * delay.deviation_s;
     if (!is_clear || delay.is_named || allowed_delay(*decision.final.fitted) != delay.late_s) return;
     joint_.timing_sentence = timing_sentence(delay.late_s, input_.train.rate_hz);
+  }
+
+  // what the error of recordings to predict is no prediction of (own_clock.hpp)
+  void tell_refitted(DecisionQuestion const& question) {
+    if (question.validation.empty()) return;
+    for (auto const& effect : joint_.effects) {
+      Effect const* const known = find_effect(effect.name);
+      if (known != nullptr && is_clock_bound(*known)) joint_.nuisances.push_back(refitted_clause(effect.name));
+    }
   }
 
   void draw(JointDecision const& decision, DecisionQuestion const& question) {

@@ -13,7 +13,7 @@ namespace torquescope {
 struct DecisionNumbers {
   // chance over the whole catalogue (max-T: Westfall, Young 1993, ISBN 978-0-471-55761-6)
   double alpha = 0.05;
-  // of smooth corrections: a second question about the same model (Bonferroni)
+  // of adequacy, smooth functions and refused effects: a second question about the same model (Bonferroni)
   double correction_alpha() const { return 0.5 * alpha; }
   // of the torque's rms: the smallest torque of a law that is worth a name (Lakens 2017, doi:10.1177/1948550617697177)
   double delta = 0.0025;

@@ -67,14 +67,14 @@ Eigen::VectorXd less_own_clock(ElsewhereRows const& rows, Eigen::VectorXd residu
   for (std::size_t i = 0; i < model.effects().size(); ++i) {
     ShapedEffect const& one = model.effects()[i];
     if (!is_clock_bound(*one.effect)) continue;
-    Eigen::MatrixXd const columns = columns_there(rows, *one.effect, {one.shape}).front();
+    auto const columns = [&] { return columns_there(rows, *one.effect, {one.shape}).front(); };
     switch (carry_over(*one.effect)) {
       case CarryOver::in_frequency:
-        residual = less_wave(columns, std::move(residual));
+        residual = less_wave(columns(), std::move(residual));
         break;
       case CarryOver::in_part:
         residual = less_share(
-            columns * rows.parameters.segment(static_cast<Eigen::Index>(model.first_parameter(i)), width_of(one)),
+            columns() * rows.parameters.segment(static_cast<Eigen::Index>(model.first_parameter(i)), width_of(one)),
             std::move(residual));
         break;
       default:

@@ -65,7 +65,7 @@ class Replicates {
     return p <= alpha || p * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
   }
 
-  // A law that can be named has come out and no replicate reached it; or it is told of all of them, and whether the
+  // An effect that can be named has come out and no replicate reached it; or it is told of all, and whether the
   // model is adequate
   bool is_decided() const {
     if (count() < 2) return false;

@@ -211,7 +211,8 @@ Strip strip_of(Recording const& recording, std::shared_ptr<StripFilters const> c
   strip.direction = thinned(below_half_rate(direction, *filters).col(0), first, step);
   strip.sides.resize(strip.direction.size(), sides.cols());
   for (Eigen::Index k = 0; k < sides.cols(); ++k) strip.sides.col(k) = thinned(sides.col(k), first, step);
-  double const band_hz = filters->options.cutoff_hz;
+  // of a position that is not filtered, the torque's
+  double const band_hz = filters->options.cutoff_hz > 0.0 ? filters->options.cutoff_hz : filters->cutoff_hz;
   double const cutoff_hz = band_hz > 0.0 ? band_hz : below_half_of_rate * filters->rate_hz;
   auto const reach = static_cast<Eigen::Index>(std::ceil(quiet_periods / cutoff_hz * filters->rate_hz));
   auto const quiet = quiet_samples(recording.position, reach, strip.resolution);

@@ -57,9 +57,14 @@ TEST(Strip, AStandShorterThanTheWindowIsNotQuiet) {
     if (!stands) place += steps_per_sample * step;
     recording.position[k] = place;
   }
-  for (double const parallel_hz : {10.0, 5.0}) {
+  struct CutOffs {
+    double motion_hz, torque_hz;
+  };
+  // a position that is not filtered has the torque's window
+  for (auto const [motion_hz, torque_hz] : {CutOffs{10.0, 10.0}, CutOffs{10.0, 5.0}, CutOffs{0.0, 10.0}}) {
     FilterOptions filter = ten_hertz();
-    filter.parallel_cutoff_hz = parallel_hz;
+    filter.cutoff_hz = motion_hz;
+    filter.parallel_cutoff_hz = torque_hz;
     Strip const strip = strip_of(recording, strip_filters(recording, filter, {}));
     for (Eigen::Index k = 0; k < strip.size(); ++k) {
       auto const sample = std::lround(time_of(strip, k) * recording.rate_hz);
