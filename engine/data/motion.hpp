@@ -78,7 +78,8 @@ class ParallelFilter {
   Eigen::MatrixXd apply_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals) const;
   Eigen::VectorXd pick(Eigen::Ref<Eigen::VectorXd const> const& signal) const;  // the same samples, not low-passed
 
-  double neighbour_correlation() const;  // of kept samples that follow each other, where the signal was white noise
+  // of kept samples so many apart, where the signal was white noise
+  double neighbour_correlation(Eigen::Index apart = 1) const;
   Eigen::Index decimation() const;       // samples from one that is kept to the next
   // The same for signals of which every step-th sample is there, from first_of(step) on: it keeps the same samples.
   // Requires   step divides decimation(), and the cut-off lies below half the rate that is left

@@ -61,7 +61,7 @@ Eigen::MatrixXd ParallelFilter::apply_columns(Eigen::Ref<Eigen::MatrixXd const> 
 
 Eigen::Index ParallelFilter::decimation() const { return state_->factor; }
 
-double ParallelFilter::neighbour_correlation() const {
+double ParallelFilter::neighbour_correlation(Eigen::Index apart) const {
   if (state_->sections.empty()) return 0.0;
   double const rate_hz = state_->rate_hz * static_cast<double>(state_->factor);
   auto const warped = [&](double frequency_hz) { return std::tan(std::numbers::pi * frequency_hz / rate_hz); };
@@ -72,7 +72,7 @@ double ParallelFilter::neighbour_correlation() const {
     double const hz = rate_hz * (k + 0.5) / (2.0 * frequencies);
     double const gain = 1.0 / (1.0 + std::pow(warped(hz) / warped(state_->cutoff_hz), 2 * state_->order));
     power += gain * gain;
-    with_next += gain * gain * std::cos(2.0 * std::numbers::pi * hz / state_->rate_hz);
+    with_next += gain * gain * std::cos(2.0 * std::numbers::pi * static_cast<double>(apart) * hz / state_->rate_hz);
   }
   return with_next / power;
 }

@@ -1,7 +1,7 @@
 #include "engine/diagnose/arm_diagnosis.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,310 +9,240 @@
 
 #include "engine/account/arm_sentences.hpp"
 #include "engine/account/sentences.hpp"
+#include "engine/diagnose/all_rows_diagnosis.hpp"
 #include "engine/diagnose/arm_joint.hpp"
+#include "engine/diagnose/arm_masses.hpp"
 #include "engine/diagnose/arms/arm_simulator.hpp"
-#include "engine/diagnose/arms/rigid_rows.hpp"
-#include "engine/diagnose/arms/whole_arm_search.hpp"
-#include "engine/diagnose/beside_shared_arm.hpp"
+#include "engine/diagnose/arms/rigid_columns.hpp"
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/whole_arm_account.hpp"
-#include "engine/fit/statistics/blocked_cv.hpp"
-#include "engine/infer/pipeline/held_torque.hpp"
+#include "engine/diagnose/whole_arm_stage.hpp"
+#include "engine/infer/all_rows/delay_decision.hpp"
+#include "engine/infer/all_rows/pooled_rows.hpp"
 
 namespace torquescope {
 namespace {
 
-// of each joint that has effects which the rigid arm is fitted beside: their torque in each training recording
-using LawsOfJoints = std::vector<LawTorques>;
-
-// of the first so many effects
-LawTorques sum_of(std::vector<LawTorques> const& laws, std::size_t count) {
-  LawTorques sum = laws.front();
-  for (std::size_t i = 1; i < count; ++i)
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += laws[i][k];
-  return sum;
-}
-
-// the rigid arm beside effects, and every joint's recordings without it
-struct ArmBesideLaws {
-  LawsOfJoints laws{};  // [N]
-  FittedArm fitted{};
-  std::vector<std::vector<Recording>> train{}, unseen{};  // [file][N] joints alone
+// one joint's model and all its recordings: those of training first
+struct JointOfArm {
+  Regressor regressor;
+  std::unique_ptr<Effect const> term{};
+  std::vector<Recording> recordings{};
 };
 
-// whether a joint's own rows may correct the rigid arm (rigid_corrections.hpp)
-enum class RigidArm { shared, corrected };
+// a joint's rows as decided: without its names, with them, and with all of them but one
+struct DecidedRows {
+  PooledRows baseline{}, final{};
+  std::vector<PooledRows> without{};
+  std::vector<Effect const*> laws{};
+};
 
-class ArmWork {
+class ArmOnAllRows {
  public:
-  ArmWork(ArmDiagnosisInput const& input, StageSink const& progress)
+  ArmOnAllRows(ArmDiagnosisInput const& input, StageSink const& progress)
       : input_(input),
         progress_(progress),
         filter_{input.filter, input.filter_section},
-        train_(input.train),
-        unseen_(input.validate) {
-    if (!has_simulator(input.train)) return;
-    ArmWithoutSimulator apart = without_simulator(input.model, input.train, input.validate, filter_);
-    train_ = std::move(apart.train);
-    unseen_ = std::move(apart.validate);
-    parameter_share_ = std::move(apart.parameter_share);
+        joints_(input.model.joints()),
+        decided_(joints_),
+        outcomes_(joints_) {
+    std::vector<RecordedArm> train = input.train, unseen = input.validate;
+    if (has_simulator(input.train)) {
+      ArmWithoutSimulator apart = without_simulator(input.model, input.train, input.validate, filter_);
+      train = std::move(apart.train);
+      unseen = std::move(apart.validate);
+      parameter_share_ = std::move(apart.parameter_share);
+    }
+    train.insert(train.end(), std::make_move_iterator(unseen.begin()), std::make_move_iterator(unseen.end()));
+    numbers_.alpha = input.selection.q;
+    numbers_.delta = input.levels.delta;
+    numbers_.least_fall = input.levels.least_fall;
+    arm_ = learnt_arm(input, std::move(train), filter_);
   }
 
-  Diagnosis run() {
-    std::size_t const n = input_.model.joints();
-    take_laws_of_whole_arm(LawsOfJoints(n));
-    arm_ = beside(LawsOfJoints(n));
-    for (std::size_t j = 0; j < n; ++j) alone_.push_back(searched(j, RigidArm::shared));
-    outcomes_ = alone_;
-    searched_on_.resize(n);
-    taken_.assign(n, 0);
-    for (std::size_t j = 0; j < n; ++j) searched_on_[j] = arm_.train.front()[j].gear_load;
-    take_laws_in_turn();
-    for (std::size_t j = 0; j < n; ++j)
-      if (outcomes_[j].diagnosis.verdict == Verdict::unexplained && try_beside_pilot(j)) take_laws_in_turn();
+  Diagnosis run() && {
+    take_laws_of_whole_arm();
+    decide_all();
     // what joints lacked may have hidden what the whole arm lacks
-    if (names_anything(arm_.laws) && take_laws_of_whole_arm(arm_.laws)) {
-      arm_ = beside(std::move(arm_.laws));
-      search_those_that_moved();
-      take_laws_in_turn();
-    }
+    if (names_anything() && take_laws_of_whole_arm()) decide_all();
+    refute();
+    put_errors();
     Diagnosis diagnosis;
     diagnosis.seed = input_.seed;
     diagnosis.q = input_.selection.q;
-    diagnosis.arm = account_for_whole_arm(answers_, {names_of(train_), names_of(unseen_)}, whole_arm_level());
-    for (auto& outcome : outcomes_) diagnosis.joints.push_back(joint_of(outcome.diagnosis));
-    credit_laws_of_whole_arm(diagnosis.joints);
+    diagnosis.arm =
+        account_for_whole_arm(answers_, {arm_.files.names(true), arm_.files.names(false)}, whole_arm_alpha());
+    for (auto& outcome : outcomes_) {
+      JointDiagnosis joint = std::move(outcome.diagnosis.joints.front());
+      joint.verdict = outcome.diagnosis.verdict;
+      joint.reason = std::move(outcome.diagnosis.reason);
+      diagnosis.joints.push_back(std::move(joint));
+    }
+    credit_laws_of_whole_arm(answers_, numbers_.most_of_it, diagnosis.joints);
     diagnosis.verdict = verdict_of_arm(diagnosis.joints, diagnosis.arm->effects);
     diagnosis.reason = arm_reason_sentence(diagnosis);
     return diagnosis;
   }
 
  private:
-  double whole_arm_level() const { return whole_arm_share * input_.selection.q; }
+  std::size_t training() const { return input_.train.size(); }
+  double whole_arm_alpha() const { return numbers_.whole_arm_share * numbers_.alpha; }
 
-  static std::vector<std::string> names_of(std::vector<RecordedArm> const& recordings) {
-    std::vector<std::string> names;
-    for (auto const& one : recordings) names.push_back(one.joints.front().name);
-    return names;
-  }
-
-  static bool names_anything(LawsOfJoints const& laws) {
-    return std::any_of(laws.begin(), laws.end(), [](auto const& of_joint) { return !of_joint.empty(); });
-  }
-
-  // Takes out of all recordings what acts on several joints at once, as far as it shows beside their effects. Whether
-  // there was any
-  bool take_laws_of_whole_arm(LawsOfJoints const& beside_laws) {
+  // whether any were found
+  bool take_laws_of_whole_arm() {
     if (progress_) progress_("whole arm", 0, 1);
-    std::vector<RecordedArm> const train = less(beside_laws);
-    WholeArmQuestion const question{
-        input_.model,      train,       unseen_,       filter_, input_.candidates.front(), input_.levels,
-        whole_arm_level(), input_.seed, input_.threads};
-    answers_.push_back(search_whole_arm(question));
+    answers_.push_back(laws_of_whole_arm(input_, arm_.files, arm_.rows, arm_.noise(), numbers_));
     auto const& accepted = answers_.back().accepted;
-    if (!accepted.empty()) {
-      for (std::size_t k = 0; k < train_.size(); ++k) take_out(train_[k], question, accepted, {train[k], k, false});
-      for (std::size_t k = 0; k < unseen_.size(); ++k) take_out(unseen_[k], question, accepted, {unseen_[k], k, true});
-    }
+    if (!accepted.empty()) arm_ = learnt_arm(input_, without_laws(arm_.files, accepted), filter_);
     if (progress_) progress_("whole arm", 1, 1);
     return !accepted.empty();
   }
 
-  static void take_out(RecordedArm& recording, WholeArmQuestion const& question,
-                       std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of) {
-    auto const torques = whole_arm_torques(question, accepted, of);
-    for (std::size_t j = 0; j < torques.size(); ++j) {
-      Recording& joint = recording.joints[j];
-      joint.torque -= torque_to_hold(torques[j]);
-      // it passes the gear all the same
-      joint.gear_load = joint.gear_load.size() > 0 ? (joint.gear_load + torques[j]).eval() : torques[j];
-    }
+  void decide_all() {
+    for (std::size_t j = 0; j < joints_; ++j) decide(j, {});
   }
 
-  static JointDiagnosis joint_of(Diagnosis& made) {
-    JointDiagnosis joint = std::move(made.joints.front());
-    joint.verdict = made.verdict;
-    joint.reason = std::move(made.reason);
+  bool names_anything() const {
+    return std::any_of(decided_.begin(), decided_.end(), [](auto const& one) { return one && !one->laws.empty(); });
+  }
+
+  JointOfArm joint_of(std::size_t j) const {
+    SharedPart const part = shared_part(arm_.information, j);
+    auto const own = rigid_parameters(input_.model, j);
+    Eigen::MatrixXd combinations(std::ssize(own), 1 + part.directions.cols());
+    combinations << part.known(own), part.directions(own, Eigen::all);
+    JointOfArm joint{own_terms(input_.model, j), {}, arm_.recordings[j]};
+    Eigen::Index const columns = add_rigid_arm(joint.recordings, training(), combinations, filter_);
+    if (columns == 0) return joint;
+    joint.term = rigid_term(rigid_arm_name, columns);
+    joint.regressor = joint.regressor.beside(*joint.term);
     return joint;
   }
 
-  // A joint most of whose mismatch an effect of the whole arm explains is not unexplained: what is left of it is
-  void credit_laws_of_whole_arm(std::vector<JointDiagnosis>& joints) const {
-    for (auto const& answer : answers_)
-      for (auto const& law : answer.accepted)
-        for (std::size_t j = 0; j < joints.size(); ++j) {
-          double const share = law.explained_at[static_cast<Eigen::Index>(j)];
-          if (joints[j].verdict != Verdict::unexplained || share <= most_of_it) continue;
-          joints[j].verdict = Verdict::partly;
-          joints[j].explained_share = share;
-          joints[j].reason = explained_by_arm_sentence(law.law.effect->name(), share) + " " + joints[j].reason;
-        }
-  }
-
-  std::vector<RecordedArm> less(LawsOfJoints const& laws) const {
-    std::vector<RecordedArm> left = train_;
-    for (std::size_t j = 0; j < laws.size(); ++j)
-      for (std::size_t k = 0; k < left.size() && !laws[j].empty(); ++k)
-        left[k].joints[j].torque -= torque_to_hold(laws[j][k]);
-    return left;
-  }
-
-  // Effects of a joint beside those of the others, as large as a fit of them and the arm together has them: beside an
-  // arm that was fitted without them they come out too small
-  LawsOfJoints with_laws(std::size_t j, LawTorques const& found) const {
-    LawsOfJoints laws = arm_.laws;
-    Eigen::VectorXd const& noise = arm_.fitted.noise;
-    auto const left_beside = [&](double size) {
-      laws[j].clear();
-      for (auto const& torque : found) laws[j].emplace_back(size * torque);
-      double left = 0.0;
-      auto const energies = fit_parameters(input_.model, less(laws), filter_, noise).energies;
-      for (std::size_t i = 0; i < energies.size(); ++i) {
-        double const own = noise[static_cast<Eigen::Index>(i)];
-        left += energies[i].left / (own * own);
-      }
-      return left;
-    };
-    // the energy is a parabola in the size: three points tell its lowest one
-    double const none = left_beside(0.0), once = left_beside(1.0), twice = left_beside(2.0);
-    double const curvature = none - 2.0 * once + twice;
-    double const best = curvature > 0.0 ? 1.0 + 0.5 * (none - twice) / curvature : 1.0;
-    laws[j].clear();
-    for (auto const& torque : found) laws[j].emplace_back(std::max(1.0, best) * torque);
-    return laws;
-  }
-
-  ArmBesideLaws beside(LawsOfJoints laws) const {
-    ArmBesideLaws arm;
-    arm.fitted = fit_arm(input_.model, less(laws), filter_);
-    arm.laws = std::move(laws);
-    for (auto const& recording : train_)
-      arm.train.push_back(joints_alone(input_.model, arm.fitted, recording, filter_));
-    for (auto const& recording : unseen_)
-      arm.unseen.push_back(joints_alone(input_.model, arm.fitted, recording, filter_));
-    return arm;
-  }
-
-  // One effect at a time, the strongest first, until none is new to the fit of the arm. Of a joint with several the
-  // first alone: beside an arm that lacks it, the next may be no more than what the arm was bent by it
-  void take_laws_in_turn() {
-    for (auto strongest = strongest_new(); strongest; strongest = strongest_new()) {
-      std::size_t& taken = taken_[*strongest];
-      ++taken;
-      arm_ = beside(with_laws(*strongest, sum_of(outcomes_[*strongest].laws, taken)));
-      search_those_that_moved();
-    }
-  }
-
-  void search_those_that_moved() {
-    for (std::size_t j = 0; j < outcomes_.size(); ++j) {
-      if (!has_moved(j)) continue;
-      outcomes_[j] = searched_beside_laws(j);
-      searched_on_[j] = arm_.train.front()[j].gear_load;
-    }
-  }
-
-  // A joint without names is told as it is beside the effects of others, but not beside an arm that lacks its own
-  JointOutcome searched_beside_laws(std::size_t j) const {
-    JointOutcome outcome = searched(j, RigidArm::shared);
-    if (arm_.laws[j].empty() && outcome.diagnosis.joints.front().effects.empty()) return outcome;
-    return beside_shared_arm(alone_[j], std::move(outcome), input_.levels, filter_memory());
-  }
-
-  // rows that the parallel filter couples, of the joints' rows
-  Eigen::Index filter_memory() const {
-    Recording const& first = train_.front().joints.front();
-    Regressor const terms = own_terms(input_.model, 0);
-    return guard_rows({terms, input_.filter, first.rate_hz, first.position.size(), input_.filter_section});
-  }
-
-  // A missing effect bends the rigid arm, which then hides it. Where a joint stays unexplained, a search that may
-  // correct the arm at that joint is the pilot: beside what it finds the arm is fitted anew, and the joint is judged
-  // beside that arm. Whether names came of it
-  bool try_beside_pilot(std::size_t j) {
-    JointOutcome const pilot = searched(j, RigidArm::corrected);
-    if (pilot.tried.empty()) return false;
-    ArmBesideLaws before = arm_;
-    arm_ = beside(with_laws(j, sum_of(pilot.tried, pilot.tried.size())));
-    JointOutcome again = searched_beside_laws(j);
-    if (again.laws.empty() || !names_physics(again.diagnosis.verdict)) {
-      arm_ = std::move(before);
-      return false;
-    }
-    outcomes_[j] = std::move(again);
-    searched_on_[j] = arm_.train.front()[j].gear_load;
-    arm_.laws[j].clear();  // to be taken as they were found last
-    taken_[j] = 0;
-    return true;
-  }
-
-  // Whether the joint's rigid torque differs from the one it was last searched with, by more than a tenth of its noise
-  bool has_moved(std::size_t j) const {
-    constexpr double tenth = 0.1;
-    Eigen::VectorXd const& before = searched_on_[j];
-    double const moved =
-        (arm_.train.front()[j].gear_load - before).norm() / std::sqrt(static_cast<double>(before.size()));
-    return moved > tenth * arm_.fitted.noise[static_cast<Eigen::Index>(j)];
-  }
-
-  // Of joints with an effect that is not yet taken out of the fit, the one with the largest relative to its noise:
-  // these bias the shared parameters most
-  std::optional<std::size_t> strongest_new() const {
-    std::optional<std::size_t> strongest;
-    double most = 0.0;
-    for (std::size_t j = 0; j < outcomes_.size(); ++j) {
-      auto const& laws = outcomes_[j].laws;
-      if (laws.size() <= taken_[j]) continue;
-      double const noise = arm_.fitted.noise[static_cast<Eigen::Index>(j)];
-      double const size = sum_of(laws, taken_[j] + 1).front().squaredNorm() / (noise * noise);
-      if (size <= most) continue;
-      most = size;
-      strongest = j;
-    }
-    return strongest;
-  }
-
-  JointOutcome searched(std::size_t j, RigidArm rigid) const {
-    std::vector<Recording> others;
-    for (std::size_t k = 1; k < arm_.train.size(); ++k) others.push_back(arm_.train[k][j]);
-    std::vector<std::string> too_short;
-    for (auto const& recording : arm_.unseen) {
-      bool const is_long = rows_one_way(recording[j], filter_) >= fewest_rows;
-      if (is_long)
-        others.push_back(recording[j]);
-      else
-        too_short.push_back(recording[j].name);
-    }
-    Regressor regressor = own_terms(input_.model, j);
-    std::unique_ptr<Effect const> term;
-    if (RigidCorrections const& free = arm_.fitted.corrections[j]; rigid == RigidArm::corrected && free.size() > 0) {
-      term = correction_term(free.size());
-      regressor = regressor.beside(*term);
-    }
-    DiagnosisInput joint{arm_.train.front()[j], others, regressor, input_.filter, input_.filter_section};
-    joint.selection = input_.selection;
-    joint.selection.candidates = input_.candidates[j];
-    joint.selection.q = level_of_joint(input_.selection.q, input_.model.joints());
-    joint.levels = input_.levels;
-    joint.twins = input_.twins;
-    joint.seed = input_.seed + j;  // replicates of one joint have nothing in common with those of another
-    joint.threads = input_.threads;
-    joint.ablation = input_.ablation;
-    joint.reversals = input_.reversals;
-    joint.joint = static_cast<int>(j) + 1;
-    joint.further_training = arm_.train.size() - 1;
-    joint.exchange = input_.exchange;
-    if (!parameter_share_.empty()) joint.parameter_share = parameter_share_[j];
-    StageSink const progress = of_joint(j);
-    JointOutcome outcome;
-    // a joint that hardly moves in one recording is no reason to say nothing of the others
+  void decide(std::size_t j, std::vector<Effect const*> const& refuted) {
+    JointOfArm const joint = joint_of(j);
+    std::vector<Recording> const others(joint.recordings.begin() + 1, joint.recordings.end());
+    DiagnosisInput input{joint.recordings.front(), others, joint.regressor, input_.filter, input_.filter_section};
+    input.selection = input_.selection;
+    input.selection.candidates = input_.candidates[j];
+    std::erase_if(input.selection.candidates,
+                  [&](Effect const* law) { return std::find(refuted.begin(), refuted.end(), law) != refuted.end(); });
+    input.selection.q = numbers_.alpha_of_joint(joints_);
+    input.levels = input_.levels;
+    input.seed = input_.seed + j;  // replicates of one joint have nothing in common with those of another
+    input.threads = input_.threads;
+    input.joint = static_cast<int>(j) + 1;
+    input.further_training = training() - 1;
+    if (!parameter_share_.empty()) input.parameter_share = parameter_share_[j];
+    decided_[j].reset();
     auto const why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
-      outcome = diagnose_joint(joint, progress);
+      outcomes_[j] = diagnose_on_all_rows(input, of_joint(j), [&](JointDecision const& made) { keep(j, made); });
       return std::nullopt;
     });
-    if (why) outcome = hopeless_joint(joint, *why);
-    if (!too_short.empty()) outcome.diagnosis.reason += " " + too_few_rows_sentence(too_short);
-    return outcome;
+    if (why) outcomes_[j] = hopeless_joint(input, *why);
+    hide_masses(outcomes_[j].diagnosis.joints.front());
+  }
+
+  // combinations of masses are no numbers for people
+  static void hide_masses(JointDiagnosis& joint) {
+    for (auto* parameters : {&joint.baseline, &joint.augmented})
+      std::erase_if(*parameters, [](ParameterEstimate const& one) { return one.name.starts_with(rigid_arm_name); });
+  }
+
+  void keep(std::size_t j, JointDecision const& made) {
+    SharedLaw const law = shared_masses(input_.model, j, rigid_arm_name);
+    DecidedRows rows;
+    bool const names_delay = made.facts.delay.is_named;
+    rows.baseline = names_delay ? pooled_rows(made.rows, at_allowed_delay(made.rows, made.baseline), law)
+                                : pooled_rows(made.rows, made.baseline, law);
+    rows.final = pooled_rows(made.rows, made.final, law);
+    JointModel const& model = *made.final.model;
+    for (std::size_t i = 0; i < made.facts.accepted.size(); ++i) {
+      auto effects = model.effects();
+      effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(i));
+      FittedModel const without =
+          fitted_model(made.rows, model.regressor(), std::move(effects), made.final.fitted.get(),
+                       {DelaySearch::everywhere, DecisionNumbers{}.longest_delay_s});
+      rows.without.push_back(pooled_rows(made.rows, without, law));
+      rows.laws.push_back(made.facts.accepted[i].effect);
+    }
+    decided_[j] = std::move(rows);
+    arm_.rows[j] = rows_for_whole_arm(arm_.files, made.rows, made.final, law, j);
+  }
+
+  // of all joints that were decided, as named; one of them with other rows
+  PooledErrors together(PooledRows DecidedRows::*which, std::size_t instead_at = 0,
+                        PooledRows const* instead = nullptr) const {
+    std::vector<PooledRows const*> rows;
+    std::vector<double> variances;
+    for (std::size_t j = 0; j < joints_; ++j) {
+      if (!decided_[j]) continue;
+      rows.push_back(instead != nullptr && j == instead_at ? instead : &((*decided_[j]).*which));
+      variances.push_back(arm_.variances[j]);
+    }
+    return pooled_errors(rows, variances);
+  }
+
+  std::optional<std::size_t> refuted_law(std::size_t j, double judged) const {
+    for (std::size_t i = 0; i < decided_[j]->laws.size(); ++i)
+      if (!(judged < together(&DecidedRows::final, j, &decided_[j]->without[i]).judged)) return i;
+    return std::nullopt;
+  }
+
+  void refute() {
+    if (!names_anything()) return;
+    for (std::size_t j = 0; j < joints_; ++j) {
+      std::vector<Effect const*> refuted;
+      while (decided_[j] && !decided_[j]->laws.empty()) {
+        auto const law = refuted_law(j, together(&DecidedRows::final).judged);
+        if (!law) break;
+        refuted.push_back(decided_[j]->laws[*law]);
+        decide(j, refuted);
+      }
+    }
+  }
+
+  void put_errors() {
+    if (std::none_of(decided_.begin(), decided_.end(), [](auto const& one) { return one.has_value(); })) return;
+    PooledErrors const before = together(&DecidedRows::baseline), after = together(&DecidedRows::final);
+    std::size_t place = 0;
+    for (std::size_t j = 0; j < joints_; ++j) {
+      if (!decided_[j]) continue;
+      JointDiagnosis& joint = outcomes_[j].diagnosis.joints.front();
+      ModelErrors const &plain = before.of_joints[place], &named = after.of_joints[place++];
+      joint.train_relerr = plain.train;
+      joint.cv_relerr = plain.held_out;
+      joint.validation_relerr = plain.validation;
+      joint.validation_torque_energy = decided_[j]->final.validation_energy;
+      if (!joint.effects.empty()) {
+        joint.augmented_train_relerr = named.train;
+        joint.augmented_cv_relerr = named.held_out;
+        joint.augmented_validation_relerr = named.validation;
+      }
+      Diagnosis& diagnosis = outcomes_[j].diagnosis;
+      ModelErrors const own = own_errors(*joint.decision);
+      bool const contradicts = contradicts_others(own.judged(), named.judged());
+      if (contradicts) has_riddle(diagnosis);
+      diagnosis.reason = whole_reason(diagnosis);
+      if (contradicts) diagnosis.reason += " " + own_masses_sentence(own.judged(), named.judged());
+    }
+  }
+
+  static ModelErrors own_errors(DecisionAccount const& account) {
+    return {account.final.train, account.final.held_out, account.final.validation};
+  }
+
+  // whether sharing the masses leaves more of a joint than all else does
+  bool contradicts_others(double own, double pooled) const {
+    double const beyond = pooled * pooled - own * own;
+    return own * own < numbers_.most_of_it * pooled * pooled && beyond > input_.levels.delta * input_.levels.delta;
+  }
+
+  static void has_riddle(Diagnosis& diagnosis) {
+    diagnosis.finding.clear();
+    diagnosis.way_out.clear();
+    diagnosis.verdict = diagnosis.joints.front().effects.empty() ? Verdict::unexplained : Verdict::partly;
+    diagnosis.joints.front().verdict = diagnosis.verdict;
   }
 
   // stages of one joint after the other
@@ -325,19 +255,19 @@ class ArmWork {
   ArmDiagnosisInput const& input_;
   StageSink const& progress_;
   ArmFilter filter_;
-  std::vector<RecordedArm> train_, unseen_;  // less what a simulator and effects of the whole arm explain
-  std::vector<double> parameter_share_{};    // [N] with a simulator
+  std::size_t joints_;
+  DecisionNumbers numbers_{};
+  LearntArm arm_{};
+  std::vector<double> parameter_share_{};            // [N] with a simulator
+  std::vector<std::optional<DecidedRows>> decided_;  // [N]; none: hopeless
   std::vector<WholeArmAnswer> answers_{};
-  ArmBesideLaws arm_{};
-  std::vector<JointOutcome> alone_{}, outcomes_{};  // [N] beside the arm without effects; as it is told
-  std::vector<Eigen::VectorXd> searched_on_{};      // [N] rigid torque of the last search
-  std::vector<std::size_t> taken_{};                // [N] effects that the arm is fitted beside
+  std::vector<JointOutcome> outcomes_;  // [N]
 };
 
 }  // namespace
 
 Diagnosis diagnose_arm(ArmDiagnosisInput const& input, StageSink const& progress) {
-  return ArmWork(input, progress).run();
+  return ArmOnAllRows(input, progress).run();
 }
 
 }  // namespace torquescope

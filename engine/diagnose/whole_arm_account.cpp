@@ -120,4 +120,17 @@ WholeArmDiagnosis account_for_whole_arm(std::vector<WholeArmAnswer> const& answe
   return made;
 }
 
+void credit_laws_of_whole_arm(std::vector<WholeArmAnswer> const& answers, double most,
+                              std::vector<JointDiagnosis>& joints) {
+  for (auto const& answer : answers)
+    for (auto const& law : answer.accepted)
+      for (std::size_t j = 0; j < joints.size(); ++j) {
+        double const share = law.explained_at[static_cast<Eigen::Index>(j)];
+        if (joints[j].verdict != Verdict::unexplained || share <= most) continue;
+        joints[j].verdict = Verdict::partly;
+        joints[j].explained_share = share;
+        joints[j].reason = explained_by_arm_sentence(law.law.effect->name(), share) + " " + joints[j].reason;
+      }
+}
+
 }  // namespace torquescope

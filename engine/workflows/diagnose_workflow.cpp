@@ -11,7 +11,6 @@
 #include "engine/account/sentences.hpp"
 #include "engine/data/arm_recording.hpp"
 #include "engine/data/health/finding_text.hpp"
-#include "engine/diagnose/all_rows_arm.hpp"
 #include "engine/diagnose/all_rows_diagnosis.hpp"
 #include "engine/experiment/diagnosis_input.hpp"
 #include "engine/experiment/job_sections.hpp"
@@ -166,13 +165,13 @@ Diagnosis with_moving_zero(Diagnosis diagnosis, std::vector<Finding> const& find
   return diagnosis;
 }
 
-// "auto": all samples of one joint; moving rows of an arm, and where the job asks for what they alone know
+// "auto": all samples; moving rows of one joint where the job asks for what they alone know
 Decider decider_for(Experiment::Parts const& parts) {
+  if (parts.arm) return Decider::all_rows;
   Decider const asked = decider_of(parts.diagnose.decider);
   if (asked != Decider::by_job) return asked;
   DiagnoseOptions const usual;
-  bool const is_of_moving_rows =
-      !parts.diagnose.ablations().empty() || parts.diagnose.reversals != usual.reversals || parts.arm;
+  bool const is_of_moving_rows = !parts.diagnose.ablations().empty() || parts.diagnose.reversals != usual.reversals;
   return is_of_moving_rows ? Decider::moving_rows : Decider::all_rows;
 }
 
@@ -187,22 +186,13 @@ Diagnosis diagnose_one_joint(Experiment::Parts const& parts, int threads, TwinEx
   return diagnosis;
 }
 
-Diagnosis diagnose_whole_arm(Experiment::Parts const& parts, int threads, TwinExchange* exchange,
-                             StageSink const& sink) {
+Diagnosis diagnose_whole_arm(Experiment::Parts const& parts, int threads, StageSink const& sink) {
   Section const filter = section_or_empty(parts.job, "filter");
-  ArmDiagnosisInput const input = arm_input(parts, filter, threads, exchange);
-  Decider const decider = decider_for(parts);
-  if (decider == Decider::all_rows) return diagnose_arm_on_all_rows(input, sink);
-  Diagnosis diagnosis = diagnose_arm(input, sink);
-  if (decider == Decider::both) {
-    Diagnosis const beside = diagnose_arm_on_all_rows(input, sink);
-    for (std::size_t j = 0; j < diagnosis.joints.size(); ++j) diagnosis.joints[j].decision = beside.joints[j].decision;
-  }
-  return diagnosis;
+  return diagnose_arm(arm_input(parts, filter, threads, nullptr), sink);
 }
 
 Diagnosis diagnose_parts(Experiment::Parts const& parts, int threads, TwinExchange* exchange, StageSink const& sink) {
-  if (parts.arm) return diagnose_whole_arm(parts, threads, exchange, sink);
+  if (parts.arm) return diagnose_whole_arm(parts, threads, sink);
   return diagnose_one_joint(parts, threads, exchange, sink);
 }
 

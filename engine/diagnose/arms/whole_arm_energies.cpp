@@ -22,11 +22,11 @@ Eigen::VectorXd noise_energies(WholeArmRows const& rows, Eigen::VectorXd const& 
     }
     before = i;
   }
+  double const correlation = rows.recordings[stretch.recording].neighbour_correlation;
   Eigen::VectorXd energies = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joints));
   for (std::size_t j = 0; j < joints; ++j)
     if (pairs[j] > 0.0)
-      energies[static_cast<Eigen::Index>(j)] =
-          count[j] * squares[j] / (2.0 * (1.0 - stretch.noise_correlation) * pairs[j]);
+      energies[static_cast<Eigen::Index>(j)] = count[j] * squares[j] / (2.0 * (1.0 - correlation) * pairs[j]);
   return energies;
 }
 

@@ -1,114 +1,135 @@
 #include "engine/diagnose/arms/whole_arm_rows.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <utility>
 
 namespace torquescope {
 namespace {
 
-Eigen::Index moving_rows(RecordedRows const& rows) {
-  return std::accumulate(rows.moving.begin(), rows.moving.end(), Eigen::Index{0},
-                         [](Eigen::Index sum, JointRows const& joint) { return sum + joint.torque.size(); });
+RowGrid grid_of(Strip const& strip, double begins_s) {
+  auto const& filter = *strip.filters->laws;
+  double const period_s = static_cast<double>(strip.rows_apart) / filter.kept_rate_hz();
+  Eigen::VectorXd const times = filter.pick(strip.motion.time_s);
+  return {(filter.kept_samples() + strip.rows_apart - 1) / strip.rows_apart, begins_s + times[0], period_s,
+          filter.neighbour_correlation(strip.rows_apart)};
 }
 
-std::vector<LawPlace> places_of(std::vector<WholeArmLaw> const& laws) {
-  std::vector<LawPlace> places;
-  Eigen::Index first = 0;
-  for (WholeArmLaw const& law : laws) {
-    places.push_back({law.effect, law.joint, first, law.columns.front().cols()});
-    first += places.back().count;
+void add_strip(RowsOfJoint& to, Strip const& strip, std::size_t joint, double begins_s) {
+  RowGrid const grid = grid_of(strip, begins_s);
+  for (Eigen::Index const row : strip.rows) {
+    Eigen::Index const instant = row / strip.rows_apart;
+    to.rows.push_back(
+        {joint, to.recordings.size(), instant, grid.start_s + static_cast<double>(instant) * grid.period_s});
   }
-  return places;
+  to.recordings.push_back(grid);
 }
 
-Eigen::Index columns_of(std::vector<LawPlace> const& places) {
-  return places.empty() ? 0 : places.back().first + places.back().count;
-}
-
-// rows of one recording, joint after joint, below `first`
-void put_rows(WholeArmRows& all, Eigen::Index first, ArmModel const& model, Eigen::VectorXd const& noise,
-              RecordedRows const& rows, std::vector<WholeArmLaw> const& laws, ParallelFilter const& filter) {
-  for (std::size_t j = 0; j < rows.moving.size(); ++j) {
-    JointRows const& joint = rows.moving[j];
-    Eigen::Index const count = joint.torque.size();
-    double const per_noise = 1.0 / noise[static_cast<Eigen::Index>(j)];
-    auto const& own = model.parameters_of(j);
-    for (std::size_t c = 0; c < own.size(); ++c)
-      all.model.col(own[c]).segment(first, count) = per_noise * joint.columns.col(static_cast<Eigen::Index>(c));
-    all.torque.segment(first, count) = per_noise * joint.torque;
-    for (std::size_t l = 0; l < laws.size(); ++l)
-      all.laws.block(first, all.places[l].first, count, all.places[l].count) =
-          per_noise * filter.apply_columns(laws[l].columns[j])(joint.instant, Eigen::all);
-    for (Eigen::Index i = 0; i < count; ++i)
-      all.rows[static_cast<std::size_t>(first + i)] = {j, joint.instant[static_cast<std::size_t>(i)], joint.time_s[i]};
-    first += count;
-  }
-}
-
-std::vector<Eigen::Index> by_instant(std::vector<ArmRow> const& rows, RowBlock const& recording) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(recording.size()));
-  std::iota(order.begin(), order.end(), recording.from);
-  auto const row = [&](Eigen::Index i) -> ArmRow const& { return rows[static_cast<std::size_t>(i)]; };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return row(a).instant < row(b).instant; });
+// of the rows in the order of time
+std::vector<std::size_t> by_instant(std::vector<ArmRow> const& rows) {
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(rows[a].recording, rows[a].instant) < std::pair(rows[b].recording, rows[b].instant);
+  });
   return order;
 }
 
-// rows are in the order of time
-void add_stretches(WholeArmRows& all, std::size_t recording, RowBlock const& rows, RecordedRows const& of,
-                   double noise_correlation) {
+void add_stretches(WholeArmRows& all) {
   auto const at = [&](Eigen::Index i) -> ArmRow const& { return all.rows[static_cast<std::size_t>(i)]; };
-  if (rows.size() == 0) return;
-  double const period = 1.0 / of.kept_rate_hz;
-  double const start = at(rows.from).time_s - static_cast<double>(at(rows.from).instant) * period;
-  Eigen::Index next = rows.from;
-  for (auto const& instants : equal_blocks(of.instants, stretches_per_recording)) {
-    Eigen::Index const from = next;
-    while (next < rows.to && at(next).instant < instants.to) ++next;
-    auto const time = [&](Eigen::Index instant) { return start + static_cast<double>(instant) * period; };
-    all.stretches.push_back({recording, {from, next}, time(instants.from), time(instants.to), noise_correlation});
+  Eigen::Index next = 0;
+  for (std::size_t k = 0; k < all.recordings.size(); ++k) {
+    RowGrid const& grid = all.recordings[k];
+    auto const time = [&](Eigen::Index instant) { return grid.start_s + static_cast<double>(instant) * grid.period_s; };
+    for (auto const& instants : equal_blocks(grid.instants, stretches_per_recording)) {
+      Eigen::Index const from = next;
+      while (next < std::ssize(all.rows) && at(next).recording == k && at(next).instant < instants.to) ++next;
+      all.stretches.push_back({k, {from, next}, time(instants.from), time(instants.to)});
+    }
   }
 }
 
 }  // namespace
 
-WholeArmRows whole_arm_rows(ArmModel const& model, Eigen::VectorXd const& parameters, Eigen::VectorXd const& noise,
-                            std::span<RecordedArm const> recordings, ArmFilter const& filter,
-                            std::span<Effect const* const> wanted, int threads) {
-  std::vector<RecordedRows> rows;
-  std::vector<std::vector<WholeArmLaw>> laws;
-  std::vector<RowBlock> of_recording;
-  Eigen::Index n = 0;
-  for (auto const& recording : recordings) {
-    auto const motion = motion_of(recording, filter);
-    rows.push_back(rows_of(model, recording, motion, filter));
-    laws.push_back(whole_arm_laws(model, parameters, motion, wanted, threads));
-    of_recording.push_back({n, n + moving_rows(rows.back())});
-    n = of_recording.back().to;
+std::vector<LawPlace> law_places(std::vector<WholeArmLaw> const& laws) {
+  std::vector<LawPlace> places;
+  for (WholeArmLaw const& law : laws)
+    places.push_back({law.effect, law.joint, law_columns(places), law.columns.front().cols()});
+  return places;
+}
+
+Eigen::Index law_columns(std::vector<LawPlace> const& places) {
+  return places.empty() ? 0 : places.back().first + places.back().count;
+}
+
+void give_whole_arm_laws(std::vector<Recording>& joints, std::vector<WholeArmLaw> const& laws) {
+  for (std::size_t j = 0; j < joints.size() && !laws.empty(); ++j) {
+    Eigen::MatrixXd columns(joints[j].position.size(), law_columns(law_places(laws)));
+    Eigen::Index first = 0;
+    for (WholeArmLaw const& law : laws) {
+      columns.middleCols(first, law.columns[j].cols()) = law.columns[j];
+      first += law.columns[j].cols();
+    }
+    GivenSignals given = joints[j].given ? *joints[j].given : GivenSignals{};
+    given.laws.push_back({whole_arm_laws_name, std::move(columns)});
+    joints[j].given = std::make_shared<GivenSignals const>(std::move(given));
   }
+}
+
+ArmRowsOfJoint rows_of_joint(DecidedJoint const& joint, Eigen::Index laws) {
+  SharedLaw of_laws{whole_arm_laws_name, joint.shared.instead_of, {}, laws};
+  of_laws.places.resize(static_cast<std::size_t>(laws));
+  std::iota(of_laws.places.begin(), of_laws.places.end(), Eigen::Index{0});
+  ArmRowsOfJoint made;
+  made.training.model = shared_rows(*joint.model.fitted, joint.shared);
+  made.training.laws = shared_rows(*joint.model.fitted, of_laws).shared;
+  made.training.torque_energy = joint.strips.training_energy;
+  std::size_t recording = 0;
+  for (Strip const& strip : joint.strips.training)
+    add_strip(made.training, strip, joint.joint, joint.begins_s[recording++]);
+  for (Strip const& strip : joint.strips.validation) {
+    RowsOfJoint one{predicted_rows(joint.model, strip, joint.shared).rows,
+                    predicted_rows(joint.model, strip, of_laws).rows.shared};
+    one.torque_energy = on_rows(strip, strip.torque).squaredNorm();
+    add_strip(one, strip, joint.joint, joint.begins_s[recording++]);
+    made.validation.push_back(std::move(one));
+  }
+  return made;
+}
+
+WholeArmRows whole_arm_rows(std::vector<RowsOfJoint const*> const& joints, std::vector<Eigen::Index> const& own_columns,
+                            Eigen::VectorXd const& noise, std::vector<LawPlace> const& places) {
   WholeArmRows all;
-  all.places = places_of(laws.front());
-  all.model.setZero(n, static_cast<Eigen::Index>(model.size()));
-  all.laws.resize(n, columns_of(all.places));
-  all.torque.resize(n);
-  all.rows.resize(static_cast<std::size_t>(n));
-  std::vector<Eigen::Index> order;
-  std::vector<double> noise_correlation;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    Recording const& first = recordings[k].joints.front();
-    ParallelFilter const parallel(filter.options, first.rate_hz, first.position.size(), filter.section);
-    put_rows(all, of_recording[k].from, model, noise, rows[k], laws[k], parallel);
-    noise_correlation.push_back(parallel.neighbour_correlation());
-    auto const own = by_instant(all.rows, of_recording[k]);
-    order.insert(order.end(), own.begin(), own.end());
+  all.places = places;
+  if (joints.empty()) return all;
+  all.recordings = joints.front()->recordings;
+  std::vector<ArmRow> rows;
+  for (auto const* joint : joints) rows.insert(rows.end(), joint->rows.begin(), joint->rows.end());
+  auto const order = by_instant(rows);
+  std::vector<Eigen::Index> place(rows.size());  // of each row in the order of time
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place[order[i]] = static_cast<Eigen::Index>(i);
+    all.rows.push_back(rows[order[i]]);
   }
-  all.model = all.model(order, Eigen::all).eval();
-  all.laws = all.laws(order, Eigen::all).eval();
-  all.torque = all.torque(order).eval();
-  std::vector<ArmRow> sorted;
-  for (Eigen::Index const i : order) sorted.push_back(all.rows[static_cast<std::size_t>(i)]);
-  all.rows = std::move(sorted);
-  for (std::size_t k = 0; k < rows.size(); ++k) add_stretches(all, k, of_recording[k], rows[k], noise_correlation[k]);
+  Eigen::Index const n = std::ssize(rows), shared = joints.front()->model.shared.cols();
+  all.model.setZero(n, shared + std::accumulate(own_columns.begin(), own_columns.end(), Eigen::Index{0}));
+  all.laws.resize(n, law_columns(places));
+  all.torque.resize(n);
+  Eigen::Index own = shared;
+  auto first = place.begin();
+  for (std::size_t i = 0; i < joints.size(); own += own_columns[i++]) {
+    RowsOfJoint const& joint = *joints[i];
+    double const per_noise = 1.0 / noise[static_cast<Eigen::Index>(joint.rows.front().joint)];
+    std::vector<Eigen::Index> const at(first, first + std::ssize(joint.rows));
+    first += std::ssize(joint.rows);
+    all.model(at, Eigen::seqN(0, shared)) = per_noise * joint.model.shared;
+    all.model(at, Eigen::seqN(own, joint.model.own.cols())) = per_noise * joint.model.own;
+    all.laws(at, Eigen::all) = per_noise * joint.laws;
+    all.torque(at) = per_noise * joint.model.torque;
+    all.torque_energy += joint.torque_energy;
+  }
+  add_stretches(all);
   return all;
 }
 

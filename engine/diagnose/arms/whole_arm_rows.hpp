@@ -1,35 +1,36 @@
 #pragma once
-// Rows of all joints of an arm in the order of time, with the columns of its model and of laws of the whole arm.
+// Rows of all joints of an arm in the order of time, with the columns of their models and of laws of the whole arm.
 //
-// Rows       of the fit (rigid_rows.hpp): every joint where it moves one way, divided by its noise; of a recording by
-//            instant, then by joint
+// Rows       of all samples, as the model of each joint treats them: its delay, samples at rest, sticking
+//            (all_rows/treated_fit.hpp); divided by the noise of their joint; of a recording by instant, then by joint
+// Model      columns that the joints share, then those of each joint's own
 // Stretches  each recording in twenty of equal length: what is left out, and what may turn its sign, together
-// Shapes     n rows, R columns of the model, L of all laws side by side
+// Shapes     n rows, P columns of the model, L of all laws side by side
 // Errors     those of the filters
 // Threads    free functions
 
 #include <Eigen/Core>
-#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/diagnose/arms/arm_laws.hpp"
-#include "engine/diagnose/arms/filtered_arm.hpp"
 #include "engine/fit/statistics/equal_blocks.hpp"
+#include "engine/infer/all_rows/pooled_rows.hpp"
 
 namespace torquescope {
 
 struct ArmRow {
   std::size_t joint = 0;
+  std::size_t recording = 0;
   Eigen::Index instant = 0;
-  double time_s = 0.0;
+  double time_s = 0.0;  // on the recording's own clock
 };
 
 struct ArmStretch {
   std::size_t recording = 0;
   RowBlock rows{};
   double from_s = 0.0, until_s = 0.0;
-  double noise_correlation = 0.0;  // ParallelFilter::neighbour_correlation() of its recording
 };
 
 // of a law: its columns among those of all
@@ -38,20 +39,58 @@ struct LawPlace {
   std::optional<std::size_t> joint{};
   Eigen::Index first = 0, count = 0;
 };
+std::vector<LawPlace> law_places(std::vector<WholeArmLaw> const& laws);
+Eigen::Index law_columns(std::vector<LawPlace> const& places);
+
+// the grid of rows of one recording; all joints have the same
+struct RowGrid {
+  Eigen::Index instants = 0;
+  double start_s = 0.0, period_s = 0.0;
+  double neighbour_correlation = 0.0;  // of white noise that passed the filter
+};
+
+// one joint in one or more recordings, one after the other
+struct RowsOfJoint {
+  SharedRows model{};
+  Eigen::MatrixXd laws{};      // n x L
+  std::vector<ArmRow> rows{};  // n
+  std::vector<RowGrid> recordings{};
+  double torque_energy = 0.0;  // of the filtered torque as it is
+};
 
 struct WholeArmRows {
-  Eigen::MatrixXd model{}, laws{};  // n x R, n x L
+  Eigen::MatrixXd model{}, laws{};  // n x P, n x L
   Eigen::VectorXd torque{};         // n
   std::vector<ArmRow> rows{};       // n
   std::vector<ArmStretch> stretches{};
+  std::vector<RowGrid> recordings{};
   std::vector<LawPlace> places{};
+  double torque_energy = 0.0;  // of all joints
 };
 
 inline constexpr Eigen::Index stretches_per_recording = 2 * n_folds;
+inline constexpr char const* whole_arm_laws_name = "whole_arm_laws";
 
-// parameters: [R], at which laws are made; noise: [N]. Spreads laws over `threads`; same bits for any number
-WholeArmRows whole_arm_rows(ArmModel const& model, Eigen::VectorXd const& parameters, Eigen::VectorXd const& noise,
-                            std::span<RecordedArm const> recordings, ArmFilter const& filter,
-                            std::span<Effect const* const> wanted, int threads = 1);
+// the laws' columns at the joints of one recording, for rows_of_joint() to find
+void give_whole_arm_laws(std::vector<Recording>& joints, std::vector<WholeArmLaw> const& laws);
+
+// a joint of an arm as a model of its own has it
+struct DecidedJoint {
+  std::size_t joint = 0;
+  JointStrips const& strips;
+  FittedModel const& model;
+  SharedLaw shared{};
+  std::vector<double> begins_s{};  // of each recording on its own clock, those of training first
+};
+struct ArmRowsOfJoint {
+  RowsOfJoint training{};
+  std::vector<RowsOfJoint> validation{};  // of each recording
+};
+// laws: L
+ArmRowsOfJoint rows_of_joint(DecidedJoint const& joint, Eigen::Index laws);
+
+// own_columns: of each joint; fewer in recordings that are predicted, whose further ones are zero. noise: [N]
+WholeArmRows whole_arm_rows(std::vector<RowsOfJoint const*> const& joints, std::vector<Eigen::Index> const& own_columns,
+                            Eigen::VectorXd const& noise, std::vector<LawPlace> const& places);
 
 }  // namespace torquescope

@@ -8,8 +8,8 @@
 #include "engine/base/random_stream.hpp"
 #include "engine/fit/statistics/bounded_projection.hpp"
 #include "engine/fit/statistics/inverse_root.hpp"
+#include "engine/fit/statistics/left_out_gains.hpp"
 #include "engine/fit/statistics/twin_null.hpp"
-#include "engine/infer/moving_rows/left_out_gains.hpp"
 
 namespace torquescope {
 namespace {

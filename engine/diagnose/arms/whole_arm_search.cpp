@@ -20,18 +20,13 @@ Eigen::MatrixXd beside(Eigen::MatrixXd const& basis, Eigen::MatrixXd const& more
 
 class WholeArmWork {
  public:
-  explicit WholeArmWork(WholeArmQuestion const& question) : question_(question) {
-    PlainArmFit const fit = fit_parameters(question.model, question.train, question.filter);
-    noise_ = fit.noise;
-    rows_ = whole_arm_rows(question.model, fit.parameters, noise_, question.train, question.filter, question.wanted,
-                           question.threads);
-    if (rows_.stretches.empty()) return;  // no joint moves
-    for (auto const& recording : question.unseen)
-      unseen_.push_back(whole_arm_rows(question.model, fit.parameters, noise_, std::span(&recording, 1),
-                                       question.filter, question.wanted, question.threads));
-    basis_ = orthonormal_basis(rows_.model);
-    residual_ = left_by(basis_);
-  }
+  explicit WholeArmWork(WholeArmQuestion const& question)
+      : question_(question),
+        noise_(question.noise),
+        rows_(question.train),
+        unseen_(question.unseen),
+        basis_(orthonormal_basis(rows_.model)),
+        residual_(left_by(basis_)) {}
 
   WholeArmAnswer run() {
     WholeArmAnswer answer;
@@ -78,7 +73,7 @@ class WholeArmWork {
   void sort_strongest_first(std::vector<ScannedLaw>& scanned) const {
     std::stable_sort(scanned.begin(), scanned.end(), [](auto const& a, auto const& b) { return a.z > b.z; });
     auto const chance = std::stable_partition(scanned.begin(), scanned.end(),
-                                              [&](ScannedLaw const& one) { return one.p <= question_.alpha; });
+                                              [&](ScannedLaw const& one) { return one.p <= question_.numbers.alpha; });
     std::stable_sort(scanned.begin(), chance, [](auto const& a, auto const& b) { return a.gain > b.gain; });
   }
 
@@ -104,7 +99,7 @@ class WholeArmWork {
     found.z = scanned.z;
     found.p = scanned.p;
     auto const stretches = concerned(found.time);
-    std::size_t const joints = question_.model.joints();
+    auto const joints = static_cast<std::size_t>(noise_.size());
     Eigen::VectorXd const before = energies_on(rows_, left, stretches, joints),
                           after = energies_on(rows_, one.left, stretches, joints);
     Eigen::VectorXd noise = Eigen::VectorXd::Zero(before.size());
@@ -128,11 +123,11 @@ class WholeArmWork {
   }
 
   WholeArmReason reason_of(FoundWholeArmLaw const& found, HeldOutGain const& held_out, double left_share) const {
-    if (found.p > question_.alpha) return WholeArmReason::chance;
+    if (found.p > question_.numbers.alpha) return WholeArmReason::chance;
     if (!is_within_bounds(found)) return WholeArmReason::out_of_bounds;
     if (held_out.change != HeldOutChange::lower) return WholeArmReason::not_held_out;
-    if (left_share > 1.0 - question_.levels.least_fall) return WholeArmReason::too_small;
-    if (found.explained <= most_of_it) return WholeArmReason::most_is_left;
+    if (left_share > 1.0 - question_.numbers.least_fall) return WholeArmReason::too_small;
+    if (found.explained <= question_.numbers.most_of_it) return WholeArmReason::most_is_left;
     if (found.unseen_after > found.unseen_before) return WholeArmReason::unseen;
     return WholeArmReason::accepted;
   }
@@ -192,7 +187,7 @@ class WholeArmWork {
       Eigen::VectorXd left = unseen_left(k, with), acting = law_torque(unseen_[k], found);
       found.unseen_times.back() = ActingTime{k};
       if (found.time) {
-        auto own = own_instants(unseen_[k], k, left, acting, question_.alpha,
+        auto own = own_instants(unseen_[k], k, left, acting, question_.numbers.alpha,
                                 {question_.seed, static_cast<std::uint32_t>(k), question_.threads});
         found.unseen_times.back() = own.time;
         acting = std::move(own.torque);
@@ -200,7 +195,7 @@ class WholeArmWork {
       left -= acting;
       before += plain_energy(unseen_[k], noise_, unseen_left(k, accepted_), all);
       after += plain_energy(unseen_[k], noise_, left, all);
-      torque += plain_energy(unseen_[k], noise_, unseen_[k].torque, all);
+      torque += unseen_[k].torque_energy;
     }
     if (!(torque > 0.0)) return;
     found.unseen_before = std::sqrt(before / torque);
@@ -215,7 +210,7 @@ class WholeArmWork {
       Effect const* effect = rows_.places[one.law].effect;
       bool const is_known =
           effect == best.found.law.effect || std::find(alike.begin(), alike.end(), effect) != alike.end();
-      if (is_known || one.p > question_.alpha) continue;
+      if (is_known || one.p > question_.numbers.alpha) continue;
       Judged const rival = judged(one, left);
       bool const is_worse =
           gain_of(stretches, rival.left, best.left, Blocks::where_it_acts).change == HeldOutChange::lower;
@@ -225,9 +220,9 @@ class WholeArmWork {
   }
 
   WholeArmQuestion const& question_;
-  Eigen::VectorXd noise_{};  // [N]
-  WholeArmRows rows_{};
-  std::vector<WholeArmRows> unseen_{};
+  Eigen::VectorXd const& noise_;  // [N]
+  WholeArmRows const& rows_;
+  std::span<WholeArmRows const> unseen_;
   Eigen::MatrixXd basis_{};     // of the model and of what was accepted
   Eigen::VectorXd residual_{};  // what it leaves
   std::vector<FoundWholeArmLaw> accepted_{};
@@ -236,19 +231,15 @@ class WholeArmWork {
 }  // namespace
 
 WholeArmAnswer search_whole_arm(WholeArmQuestion const& question) {
-  bool const any = std::any_of(question.wanted.begin(), question.wanted.end(),
-                               [](Effect const* one) { return one->is_of_whole_arm(); });
-  return any ? WholeArmWork(question).run() : WholeArmAnswer{};
+  if (question.train.places.empty() || question.train.rows.empty()) return {};
+  return WholeArmWork(question).run();
 }
 
-std::vector<Eigen::VectorXd> whole_arm_torques(WholeArmQuestion const& question,
-                                               std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of) {
-  PlainArmFit const fit = fit_parameters(question.model, question.train, question.filter);
-  auto const motion = motion_of(of.recording, question.filter);
-  auto const laws = whole_arm_laws(question.model, fit.parameters, motion, question.wanted, question.threads);
-  std::vector<Eigen::VectorXd> torques(motion.size(), Eigen::VectorXd::Zero(motion.front().q.size()));
+std::vector<Eigen::VectorXd> whole_arm_torques(std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of) {
+  std::vector<Eigen::VectorXd> torques;
+  for (auto const& columns : of.laws.front().columns) torques.emplace_back(Eigen::VectorXd::Zero(columns.rows()));
   for (FoundWholeArmLaw const& found : accepted) {
-    auto const law = std::find_if(laws.begin(), laws.end(), [&](WholeArmLaw const& one) {
+    auto const law = std::find_if(of.laws.begin(), of.laws.end(), [&](WholeArmLaw const& one) {
       return one.effect == found.law.effect && one.joint == found.law.joint;
     });
     auto const& time = of.is_unseen ? found.unseen_times[of.which] : found.time;
@@ -256,7 +247,7 @@ std::vector<Eigen::VectorXd> whole_arm_torques(WholeArmQuestion const& question,
     for (std::size_t j = 0; j < torques.size(); ++j) {
       Eigen::VectorXd torque = law->columns[j] * found.values;
       for (Eigen::Index i = 0; i < torque.size() && time; ++i)
-        if (!time->holds(of.which, motion[j].time_s[i])) torque[i] = 0.0;
+        if (!time->holds(of.which, of.time_s[i])) torque[i] = 0.0;
       torques[j] += torque;
     }
   }

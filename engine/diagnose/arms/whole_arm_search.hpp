@@ -3,23 +3,21 @@
 //
 // Accepted   as WholeArmReason says; the error on rows left out must fall clearly (held_out_gain.hpp), at one joint at
 //            least by as much as a joint's own name asks for, and more of the mismatch be explained than is left
-//            (decision_levels.hpp)
+//            (decision_numbers.hpp)
 // Mismatch   energy left on rows left out, less that of noise (whole_arm_energies.hpp). Of a law with instants: in its
 //            recording
 // Alike      other laws beyond chance that leave not clearly more on rows left out
 // Unseen     a law with instants has instants of its own in each unseen recording, where they explain more than those
 //            of replicates (own_instants.hpp); else it does not act there
-// Errors     those of the filters
 // Threads    spreads the scan over `threads`; same bits for any number
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "engine/diagnose/arms/rigid_rows.hpp"
 #include "engine/diagnose/arms/whole_arm_fit.hpp"
 #include "engine/fit/statistics/held_out_gain.hpp"
-#include "engine/infer/moving_rows/decision_levels.hpp"
+#include "engine/infer/all_rows/decision_numbers.hpp"
 
 namespace torquescope {
 
@@ -49,13 +47,10 @@ struct FoundWholeArmLaw {
 };
 
 struct WholeArmQuestion {
-  ArmModel const& model;
-  std::span<RecordedArm const> train;
-  std::span<RecordedArm const> unseen;
-  ArmFilter const& filter;
-  std::span<Effect const* const> wanted;
-  DecisionLevels levels{};
-  double alpha = 0.05;
+  WholeArmRows const& train;
+  std::span<WholeArmRows const> unseen;  // of each recording
+  Eigen::VectorXd const& noise;          // [N]
+  DecisionNumbers numbers{};             // alpha: of the whole arm
   std::uint64_t seed = 0;
   int threads = 1;
 };
@@ -65,16 +60,16 @@ struct WholeArmAnswer {
   std::vector<FoundWholeArmLaw> tried{};  // of each law its best window beside the model alone, strongest first
 };
 
-// wanted: only laws of the whole arm are looked at; none of them: an empty answer
 WholeArmAnswer search_whole_arm(WholeArmQuestion const& question);
 
-// of accepted laws, what each joint needs in addition, n samples at the full rate. is_unseen: `which` counts those
+// Of accepted laws, what each joint needs in addition in one recording, n samples at the full rate. laws: of that
+// recording; is_unseen: `which` counts those; time_s: n, on the recording's own clock
 struct OneRecording {
-  RecordedArm const& recording;
+  std::vector<WholeArmLaw> const& laws;
+  Eigen::VectorXd const& time_s;
   std::size_t which = 0;
   bool is_unseen = false;
 };
-std::vector<Eigen::VectorXd> whole_arm_torques(WholeArmQuestion const& question,
-                                               std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of);
+std::vector<Eigen::VectorXd> whole_arm_torques(std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of);
 
 }  // namespace torquescope

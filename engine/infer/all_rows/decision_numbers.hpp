@@ -21,6 +21,14 @@ struct DecisionNumbers {
   double least_fall = 0.05;
   // of the torque's rms: a model beside which a law of this size would not be seen cannot be called complete
   double tolerance = 0.1;
+  // of the mismatch: what an effect of several joints must explain, and what a joint may keep from the common masses
+  double most_of_it = 0.5;
+  // of alpha, what effects of a whole arm may spend; its joints share the rest alike (weighted Bonferroni: Genovese,
+  // Roeder, Wasserman 2006, doi:10.1093/biomet/93.3.509)
+  double whole_arm_share = 0.1;
+  double alpha_of_joint(std::size_t joints) const {
+    return joints > 1 ? (1.0 - whole_arm_share) * alpha / static_cast<double>(joints) : alpha;
+  }
   // replicates of a model, and of these above which no name can come out any more (Besag, Clifford 1991,
   // doi:10.1093/biomet/78.2.301)
   std::size_t replicates = 48, exceedances = 3;

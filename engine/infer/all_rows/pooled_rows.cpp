@@ -58,18 +58,6 @@ SharedRows less_mean(SharedRows rows, Eigen::VectorXd const& constant) {
   return rows;
 }
 
-SharedRows unseen_rows(FittedModel const& by, Strip const& strip, SharedLaw const& law) {
-  ModelOnStrips const on(*by.model, {&strip, 1});
-  Eigen::VectorXd const parameters = by.fitted->parameters().head(on.parameters());
-  double const late_s = by.fitted->chosen().late_s;
-  auto const samples = treated_samples(on, late_s, parameters, by.fitted->chosen().fit.sticking);
-  Eigen::MatrixXd const columns = model_on_rows(on, samples);
-  auto const own = without_term(by.model->regressor(), law.instead_of, columns.cols());
-  return less_mean(
-      {shared_on_rows(strip, samples.front(), law), columns(Eigen::all, own), torque_on_rows(on, samples, late_s)},
-      on_rows(strip, samples.front().weight).col(0));
-}
-
 SharedRows picked(SharedRows const& rows, std::vector<Eigen::Index> const& which) {
   return {rows.shared(which, Eigen::all), rows.own(which, Eigen::all), rows.torque(which)};
 }
@@ -110,10 +98,24 @@ Eigen::VectorXd held_out_squares(std::span<PooledRows const* const> joints, std:
 
 SharedRows shared_rows(FittedStrips const& fitted, SharedLaw const& law) { return rows_of(fitted, fitted.base(), law); }
 
+OtherRows predicted_rows(FittedModel const& by, Strip const& strip, SharedLaw const& law) {
+  ModelOnStrips const on(*by.model, {&strip, 1});
+  Eigen::VectorXd const parameters = by.fitted->parameters().head(on.parameters());
+  double const late_s = by.fitted->chosen().late_s;
+  auto const samples = treated_samples(on, late_s, parameters, by.fitted->chosen().fit.sticking);
+  Eigen::MatrixXd const columns = model_on_rows(on, samples);
+  auto const own = without_term(by.model->regressor(), law.instead_of, columns.cols());
+  return {{shared_on_rows(strip, samples.front(), law), columns(Eigen::all, own), torque_on_rows(on, samples, late_s)},
+          on_rows(strip, samples.front().weight).col(0)};
+}
+
 PooledRows pooled_rows(JointStrips const& rows, FittedModel const& by, SharedLaw const& law) {
   PooledRows pooled;
   pooled.training = rows_of(*by.fitted, by.fitted->chosen().fit.columns, law);
-  for (auto const& strip : rows.validation) pooled.validation.push_back(unseen_rows(by, strip, law));
+  for (auto const& strip : rows.validation) {
+    OtherRows const other = predicted_rows(by, strip, law);
+    pooled.validation.push_back(less_mean(other.rows, other.constant));
+  }
   pooled.guard = by.fitted->guard();
   pooled.training_energy = rows.training_energy;
   pooled.validation_energy = rows.validation_energy;

@@ -28,6 +28,12 @@ struct SharedLaw {
 
 // of the recordings that a model is fitted to; tangents of its nuisances are columns of its own
 SharedRows shared_rows(FittedStrips const& fitted, SharedLaw const& law);
+// of a recording that is predicted by a fit, and what a constant would add there
+struct OtherRows {
+  SharedRows rows{};
+  Eigen::VectorXd constant{};
+};
+OtherRows predicted_rows(FittedModel const& by, Strip const& strip, SharedLaw const& law);
 
 struct PooledRows {
   SharedRows training{};                 // without tangents

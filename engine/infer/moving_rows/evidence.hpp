@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/fit/statistics/left_out.hpp"
-#include "engine/infer/moving_rows/left_out_gains.hpp"
+#include "engine/fit/statistics/left_out_gains.hpp"
 #include "engine/infer/moving_rows/rows_left.hpp"
 #include "engine/infer/moving_rows/training_rows.hpp"
 

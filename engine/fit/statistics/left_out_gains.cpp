@@ -1,10 +1,9 @@
-#include "engine/infer/moving_rows/left_out_gains.hpp"
+#include "engine/fit/statistics/left_out_gains.hpp"
 
 #include <utility>
 
 #include "engine/base/contract.hpp"
 #include "engine/base/dense_solvers.hpp"
-#include "engine/infer/moving_rows/decision_levels.hpp"
 
 namespace torquescope {
 namespace {

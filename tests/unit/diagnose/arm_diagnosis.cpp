@@ -1,7 +1,7 @@
 // An arm decided on all samples: a complete one lacks nothing, an effect is named at its joint alone, on any number of
 // threads.
 
-#include "engine/diagnose/all_rows_arm.hpp"
+#include "engine/diagnose/arm_diagnosis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace all_rows_arm_test {
+namespace arm_diagnosis_test {
 
 FilterOptions ten_hertz() {
   FilterOptions filter;
@@ -41,7 +41,7 @@ Diagnosis diagnosed(PlanarArm arm, int threads = 1) {
   ArmDiagnosisInput input{model, train, unseen, candidates, filter, section};
   input.seed = 3;
   input.threads = threads;
-  return diagnose_arm_on_all_rows(input, {});
+  return diagnose_arm(input, {});
 }
 
 bool is_among(std::string const& name, NamedEffect const& effect) {
@@ -61,7 +61,7 @@ void expect_named(std::string const& name, Diagnosis const& diagnosis) {
   EXPECT_LT(second.augmented_cv_relerr, 0.8 * second.cv_relerr);
 }
 
-TEST(AllRowsArm, ACompleteArmLacksNothing) {
+TEST(ArmDiagnosis, ACompleteArmLacksNothing) {
   for (std::uint64_t const seed : {1U, 2U, 3U, 4U}) {
     PlanarArm arm;
     arm.seed = seed;
@@ -75,7 +75,7 @@ TEST(AllRowsArm, ACompleteArmLacksNothing) {
   }
 }
 
-TEST(AllRowsArm, FrictionThatGrowsWithTheLoadOfTheLinksIsNamedWhereItIs) {
+TEST(ArmDiagnosis, FrictionThatGrowsWithTheLoadOfTheLinksIsNamedWhereItIs) {
   PlanarArm arm;
   arm.law = [](double, double dq, double load) { return 0.05 * std::abs(load) * std::copysign(1.0, dq); };
   Diagnosis const one = diagnosed(arm), two = diagnosed(arm, 2);
@@ -90,16 +90,16 @@ TEST(AllRowsArm, FrictionThatGrowsWithTheLoadOfTheLinksIsNamedWhereItIs) {
   }
 }
 
-TEST(AllRowsArm, CoggingIsNamedWhereItIs) {
+TEST(ArmDiagnosis, CoggingIsNamedWhereItIs) {
   PlanarArm arm;
   arm.law = [](double q, double, double) { return 0.25 * std::sin(9.0 * q); };
   expect_named("cogging", diagnosed(arm));
 }
 
-TEST(AllRowsArm, AStribeckCurveIsNamedWhereItIs) {
+TEST(ArmDiagnosis, AStribeckCurveIsNamedWhereItIs) {
   PlanarArm arm;
   arm.law = [](double, double dq, double) { return std::copysign(1.0 * std::exp(-std::pow(dq / 0.3, 2)), dq); };
   expect_named("stribeck", diagnosed(arm));
 }
 
-}  // namespace all_rows_arm_test
+}  // namespace arm_diagnosis_test

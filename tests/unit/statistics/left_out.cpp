@@ -8,7 +8,7 @@
 
 #include "engine/base/dense_solvers.hpp"
 #include "engine/fit/statistics/bounded_projection.hpp"
-#include "engine/infer/moving_rows/left_out_gains.hpp"
+#include "engine/fit/statistics/left_out_gains.hpp"
 
 using namespace torquescope;
 

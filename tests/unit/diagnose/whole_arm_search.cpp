@@ -1,6 +1,6 @@
 // Laws of a whole arm, concealed in recordings of arms whose inverse dynamics is the test's own sum of what they feel.
 
-#include "engine/diagnose/arms/whole_arm_search.hpp"
+#include "engine/diagnose/arm_masses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -100,8 +100,25 @@ class WholeArmSearch : public testing::Test {
 
   WholeArmAnswer answer(std::vector<RecordedArm> const& train, std::vector<RecordedArm> const& unseen,
                         int threads = 1) const {
-    ArmFilter const arm_filter{filter, section};
-    return search_whole_arm({model, train, unseen, arm_filter, arm_law_choices(), {}, 0.005, 11, threads});
+    return found_in(input(train, unseen, threads), learnt(input(train, unseen, threads)));
+  }
+
+  ArmDiagnosisInput input(std::vector<RecordedArm> const& train, std::vector<RecordedArm> const& unseen,
+                          int threads = 1) const {
+    ArmDiagnosisInput asked{model, train, unseen, candidates, filter, section};
+    asked.seed = 11;
+    asked.threads = threads;
+    return asked;
+  }
+
+  LearntArm learnt(ArmDiagnosisInput const& asked) const {
+    std::vector<RecordedArm> arms = asked.train;
+    arms.insert(arms.end(), asked.validate.begin(), asked.validate.end());
+    return learnt_arm(asked, std::move(arms), {filter, section});
+  }
+
+  static WholeArmAnswer found_in(ArmDiagnosisInput const& asked, LearntArm const& arm) {
+    return laws_of_whole_arm(asked, arm.files, arm.rows, arm.noise(), {});
   }
 
   SerialChain const chain = three_revolute_joints();
@@ -114,6 +131,7 @@ class WholeArmSearch : public testing::Test {
     return options;
   }();
   Section const section{};
+  std::vector<std::vector<Effect const*>> const candidates{chain.joints.size(), arm_law_choices()};
 };
 
 TEST_F(WholeArmSearch, FindsNothingWhereNothingIsMissing) {
@@ -189,7 +207,7 @@ TEST_F(WholeArmSearch, FindsATiltedBaseAndAWrongZero) {
 TEST_F(WholeArmSearch, SaysNothingOfAnArmThatStandsStill) {
   RecordedArm still = recorded({chain}, 1);
   for (auto& joint : still.joints) joint.position.setConstant(0.3);
-  EXPECT_TRUE(answer({still}, {}).tried.empty());
+  EXPECT_TRUE(answer({still}, {}).accepted.empty());
 }
 
 TEST_F(WholeArmSearch, SaysTheSameForAnyNumberOfThreads) {
@@ -206,10 +224,10 @@ TEST_F(WholeArmSearch, SaysTheSameForAnyNumberOfThreads) {
 TEST_F(WholeArmSearch, TakesOutWhatItFound) {
   Truth const truth{chain, 1.5, 11.0, 1e9};
   std::vector<RecordedArm> const train{recorded(truth, 1)};
-  ArmFilter const arm_filter{filter, section};
-  WholeArmQuestion const question{model, train, {}, arm_filter, arm_law_choices(), {}, 0.005, 11, 1};
-  auto const found = search_whole_arm(question);
-  auto const torques = whole_arm_torques(question, found.accepted, {train[0], 0, false});
+  std::vector<RecordedArm> const none{};
+  LearntArm const arm = learnt(input(train, none));
+  auto const found = found_in(input(train, none), arm);
+  auto const torques = whole_arm_torques(found.accepted, {arm.files.laws[0], train[0].joints[0].time_s, 0, false});
   RecordedArm const without = recorded({chain}, 1);
   double wrong = 0.0, whole = 0.0;
   for (std::size_t j = 0; j < torques.size(); ++j) {

@@ -1,0 +1,34 @@
+#pragma once
+// What the rows of each joint tell of the arm's masses, beside a model of its own in which all of them are free.
+//
+// Nothing    is told by a joint whose rows suit no model: it leaves the masses to the others
+// Threads    pure functions
+
+#include <optional>
+#include <vector>
+
+#include "engine/diagnose/whole_arm_stage.hpp"
+
+namespace torquescope {
+
+// columns that joint j shares, in the place of its own term of that name
+SharedLaw shared_masses(ArmModel const& model, std::size_t joint, char const* instead_of);
+
+// the joints of an arm before anything is known of what they lack
+struct LearntArm {
+  ArmFiles files{};
+  std::vector<std::vector<Recording>> recordings{};   // [N][file], with their columns
+  std::vector<SharedInformation> information{};       // [N]
+  std::vector<double> variances{};                    // [N]
+  std::vector<std::optional<ArmRowsOfJoint>> rows{};  // [N] where laws of the whole arm are asked for
+
+  Eigen::VectorXd noise() const;  // [N]
+};
+// arms: those of training first
+LearntArm learnt_arm(ArmDiagnosisInput const& input, std::vector<RecordedArm> arms, ArmFilter const& filter);
+
+// of a decided joint, where laws of the whole arm are asked for
+std::optional<ArmRowsOfJoint> rows_for_whole_arm(ArmFiles const& files, JointStrips const& strips,
+                                                 FittedModel const& model, SharedLaw const& law, std::size_t joint);
+
+}  // namespace torquescope

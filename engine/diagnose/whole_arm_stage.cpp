@@ -1,0 +1,91 @@
+#include "engine/diagnose/whole_arm_stage.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/diagnose/arms/rigid_columns.hpp"
+#include "engine/diagnose/arms/rigid_rows.hpp"
+#include "engine/infer/pipeline/held_torque.hpp"
+#include "engine/infer/validation/unseen_record.hpp"
+
+namespace torquescope {
+
+std::vector<std::string> ArmFiles::names(bool of_training) const {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < arms.size(); ++k)
+    if ((k < training) == of_training) names.push_back(arms[k].joints.front().name);
+  return names;
+}
+
+std::vector<double> ArmFiles::begins_s(std::size_t joint) const {
+  std::vector<double> begins;
+  for (auto const& arm : arms) begins.push_back(arm.joints[joint].time_s[0]);
+  return begins;
+}
+
+Eigen::Index ArmFiles::law_columns() const {
+  return torquescope::law_columns(law_places(laws.empty() ? std::vector<WholeArmLaw>{} : laws.front()));
+}
+
+ArmFiles arm_files(ArmDiagnosisInput const& input, std::vector<RecordedArm> arms, ArmFilter const& filter) {
+  ArmFiles files{std::move(arms), input.train.size(), {}};
+  std::vector<Effect const*> wanted;
+  for (auto const* effect : input.candidates.front())
+    if (effect->is_of_whole_arm()) wanted.push_back(effect);
+  if (wanted.empty()) return files;
+  // laws are those of an arm with these masses
+  auto const parameters = fit_parameters(input.model, std::span(files.arms).first(files.training), filter).parameters;
+  for (auto const& arm : files.arms)
+    files.laws.push_back(whole_arm_laws(input.model, parameters, motion_of(arm, filter), wanted, input.threads));
+  return files;
+}
+
+std::vector<std::vector<Recording>> joints_of(ArmFiles const& files, ArmModel const& model, ArmFilter const& filter) {
+  std::vector<std::vector<Recording>> all;
+  for (std::size_t k = 0; k < files.arms.size(); ++k) {
+    auto joints = joints_with_rigid_rows(model, files.arms[k], filter);
+    if (!files.laws.empty()) give_whole_arm_laws(joints, files.laws[k]);
+    for (auto& joint : joints) joint = from_zero(std::move(joint));
+    all.push_back(std::move(joints));
+  }
+  return all;
+}
+
+WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, ArmFiles const& files,
+                                 std::vector<std::optional<ArmRowsOfJoint>> const& rows, Eigen::VectorXd const& noise,
+                                 DecisionNumbers numbers) {
+  if (files.laws.empty()) return {};
+  auto const places = law_places(files.laws.front());
+  std::vector<RowsOfJoint const*> training;
+  std::vector<std::vector<RowsOfJoint const*>> unseen(files.arms.size() - files.training);
+  std::vector<Eigen::Index> own_columns;
+  for (auto const& joint : rows) {
+    if (!joint || joint->training.rows.empty()) continue;
+    training.push_back(&joint->training);
+    own_columns.push_back(joint->training.model.own.cols());
+    for (std::size_t k = 0; k < unseen.size(); ++k) unseen[k].push_back(&joint->validation[k]);
+  }
+  WholeArmRows const trained = whole_arm_rows(training, own_columns, noise, places);
+  std::vector<WholeArmRows> others;
+  for (auto const& joints : unseen) others.push_back(whole_arm_rows(joints, own_columns, noise, places));
+  numbers.alpha *= numbers.whole_arm_share;
+  return search_whole_arm({trained, others, noise, numbers, input.seed, input.threads});
+}
+
+std::vector<RecordedArm> without_laws(ArmFiles const& files, std::vector<FoundWholeArmLaw> const& accepted) {
+  std::vector<RecordedArm> arms = files.arms;
+  for (std::size_t k = 0; k < arms.size(); ++k) {
+    bool const is_unseen = k >= files.training;
+    OneRecording const of{files.laws[k], files.arms[k].joints.front().time_s, is_unseen ? k - files.training : k,
+                          is_unseen};
+    auto const torques = whole_arm_torques(accepted, of);
+    for (std::size_t j = 0; j < torques.size(); ++j) {
+      Recording& joint = arms[k].joints[j];
+      joint.torque -= torque_to_hold(torques[j]);
+      joint.gear_load = joint.gear_load.size() > 0 ? (joint.gear_load + torques[j]).eval() : torques[j];
+    }
+  }
+  return arms;
+}
+
+}  // namespace torquescope
