@@ -109,11 +109,6 @@ std::string several_recordings_sentence(std::vector<std::string> const& recordin
 
 std::string refitted_clause(std::string const& effect) { return effect + " fitted to all of its rows"; }
 
-std::string too_few_rows_sentence(std::vector<std::string> const& recordings) {
-  return fmt::format("{} {} too few rows of this joint moving one way to judge it.", name_list(recordings, "and"),
-                     recordings.size() == 1 ? "has" : "have");
-}
-
 std::string explained_by_arm_sentence(std::string const& effect, double share) {
   return fmt::format("The {} of the whole arm explains {} of this joint's mismatch; of what is left:", in_words(effect),
                      percent_text(share));

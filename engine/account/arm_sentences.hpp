@@ -36,9 +36,6 @@ std::string several_recordings_sentence(std::vector<std::string> const& recordin
 // "payload_change fitted to all of its rows", of what a recording to predict has at another time or phase
 std::string refitted_clause(std::string const& effect);
 
-// "tuesday.csv has too few rows of this joint moving one way to judge it."
-std::string too_few_rows_sentence(std::vector<std::string> const& recordings);
-
 // "The joint compliance of the whole arm explains 82 % of this joint's mismatch; of what is left:"
 std::string explained_by_arm_sentence(std::string const& effect, double share);
 

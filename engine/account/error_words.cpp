@@ -7,7 +7,6 @@
 
 #include "engine/base/quantity_text.hpp"
 #include "engine/effects/effect_traits.hpp"
-#include "engine/infer/search/selection.hpp"
 
 namespace torquescope {
 namespace {
@@ -31,11 +30,6 @@ bool keeps_little(double before, double after, double floor) {
 bool comes_early(NamedEffect const& effect) {
   return effect.acts_on == word(ActsOn::recorded_torque) && !effect.parameters.empty() &&
          effect.parameters[0].unit == "s" && effect.parameters[0].value < 0.0;
-}
-
-std::ptrdiff_t n_asked(JointDiagnosis const& joint) {
-  return std::count_if(joint.candidates.begin(), joint.candidates.end(),
-                       [](Candidate const& one) { return one.decision != Decision::not_tested; });
 }
 
 constexpr double usual_p = 0.05;
@@ -106,15 +100,6 @@ std::string unseen_is_other_sentence(JointDiagnosis const& joint) {
       percent_text(unseen), percent_text(train));
 }
 
-std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const& change) {
-  std::string const what = change.goes_both_ways ? "Dry friction differs" : "Friction or the offset differs";
-  return fmt::format(
-      "{} between recordings: in {} it is {} {} than in training, and with that the error there would be "
-      "{} instead of {} (warm-up, or another load).",
-      what, change.recording, quantity_text(std::abs(change.level), joint.unit_torque),
-      change.level < 0.0 ? "less" : "more", percent_text(change.relerr_with), percent_text(change.relerr_before));
-}
-
 std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete) {
   std::string const mend = std::any_of(joint.effects.begin(), joint.effects.end(), comes_early)
                                ? "correct the channel, or record the torque that the drive gives instead of its command"
@@ -126,24 +111,17 @@ std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete) {
 std::string likeness_sentence(JointDiagnosis const& joint) {
   if (joint.twins == 0) return fmt::format("Nothing is missing in the model of {}.", which_joint(joint));
   std::string const p = omnibus_text(joint);
-  if (!(joint.omnibus_p < usual_p) || !std::isfinite(joint.mismatch_share))
+  if (!(joint.omnibus_p < usual_p))
     return fmt::format("The residual of {} looks like that of {} simulated replicates ({}).", which_joint(joint),
                        joint.twins, p);
-  std::string const larger = fmt::format(
-      "The residual of {} is larger than that of {} simulated replicates ({}), but only by {} of the torque",
-      which_joint(joint), joint.twins, p, percent_text(joint.mismatch_share));
-  if (joint.mismatch_share <= smallest_mismatch_share) return larger + ": too little to look for.";
   return fmt::format(
-      "{}, which is not enough beside how much the replicates differ from one another; and no known effect of {} "
-      "explains "
-      "both "
-      "more than chance does and more than {} of the torque.",
-      larger, n_asked(joint), percent_text(smallest_mismatch_share));
+      "The residual of {} differs from that of {} simulated replicates ({}), but by too little for a name.",
+      which_joint(joint), joint.twins, p);
 }
 
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits) {
   Candidate const* refused = surest_refused(joint);
-  bool const is_for_one = joint.refutation.empty() && joint.omnibus_p >= usual_p && refused && refused->q < usual_p;
+  bool const is_for_one = joint.omnibus_p >= usual_p && refused && refused->q < usual_p;
   if (!is_for_one)
     return fmt::format("The residual of {} is not what simulated replicates have ({}), but {}.", which_joint(joint),
                        omnibus_text(joint), nothing_fits);
@@ -152,6 +130,16 @@ std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& 
       "theirs "
       "(beyond chance). It gets no name: {}.",
       which_joint(joint), omnibus_text(joint), refused->name, refused->reason);
+}
+
+std::string timing_sentence(double late_s, double rate_hz) {
+  if (late_s == 0.0) return "";
+  bool const is_late = late_s > 0.0;
+  return fmt::format(
+      "The torque comes {:.2g} ms {} its rows, {:.2g} of a sample, as it does where drive and log are not in step. "
+      "It was shifted back; {} recording.delay_s by as much to keep that. Only where drive and log are read together "
+      "is it a lag.",
+      1e3 * std::abs(late_s), is_late ? "after" : "before", std::abs(late_s) * rate_hz, is_late ? "lower" : "raise");
 }
 
 }  // namespace torquescope

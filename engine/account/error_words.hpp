@@ -29,10 +29,6 @@ std::string gain_sentence(JointDiagnosis const& joint);
 // relerr 18.4 % there, 0.82 % here."; "" otherwise
 std::string unseen_is_other_sentence(JointDiagnosis const& joint);
 
-// "Dry friction differs between recordings: in tuesday.csv it is 0.35 N m less than in training, and with that the
-// relerr there would be 2.8 % instead of 5.0 % (warm-up, or another load)."
-std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const& change);
-
 // where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen
 // recording agrees, and where nothing else is left (is_complete)
 std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete);
@@ -44,5 +40,8 @@ std::string likeness_sentence(JointDiagnosis const& joint);
 // Of a joint with an open gate whose map shows nothing: what it is that replicates do not have, the whole or what one
 // candidate would make. nothing_fits: a clause
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
+
+// of a torque that was moved in time by less than a name; "" where it was not
+std::string timing_sentence(double late_s, double rate_hz);
 
 }  // namespace torquescope

@@ -229,15 +229,13 @@ std::string none_reason(JointDiagnosis const& joint) {
   append(text, left_out_sentence("Training", joint.train_relerr, joint.train_left_out));
   append(text, left_out_sentence("Validation", joint.validation_relerr, joint.validation_left_out));
   append(text, joint.power_sentence);
-  if (!joint.refutation.empty()) append(text, sentence(joint.refutation));
   return text;
 }
 
 std::string unexplained_reason(JointDiagnosis const& joint) {
   auto const tested = n_tested(joint);
-  std::string const nothing_fits = !joint.refutation.empty() ? joint.refutation
-                                   : tested > 0              ? fmt::format("none of {} known effects fits it", tested)
-                                                             : std::string("no known effect fits it");
+  std::string const nothing_fits =
+      tested > 0 ? fmt::format("none of {} known effects fits it", tested) : std::string("no known effect fits it");
   std::string text = joint.other_joints;
   if (!text.empty()) return text;
   if (joint.unexplained.empty()) {

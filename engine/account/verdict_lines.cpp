@@ -111,7 +111,6 @@ std::string unexplained_text(JointDiagnosis const& joint) {
     text =
         fmt::format("{} of the residual lies {}, ", percent_text(part.energy_share), place_phrase(joint, part.where));
   }
-  if (!joint.refutation.empty()) return text + without_full_stop(joint.refutation);
   return text + (tested > 0 ? fmt::format("and none of {} effects explains it", tested) : "and no effect explains it");
 }
 

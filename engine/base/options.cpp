@@ -153,6 +153,15 @@ Problem unknown_key(Section const& section, Setting const& setting, std::vector<
   return problem;
 }
 
+Problem retired_key(Section const& section, Setting const& setting, RetiredKey const& retired) {
+  Problem problem;
+  problem.what = fmt::format("key \"{}\" of [{}] is gone", setting.key, section.name);
+  problem.place = setting.key_place;
+  problem.key = section.name + "." + setting.key;
+  problem.help = retired.help;
+  return problem;
+}
+
 Problem wrong_type(Section const& section, Setting const& setting, OptionValue const& wanted) {
   Problem problem;
   problem.what = fmt::format("{} = {} is a {}", setting.key, to_text(setting.value), type_name(setting.value));

@@ -53,9 +53,9 @@ struct OptionDescription {
   std::string key, type, unit, range, default_value, meaning;
 };
 
-std::string to_text(OptionValue const& value);    // as it would stand in a job file
+std::string to_text(OptionValue const& value);       // as it would stand in a job file
 std::string default_text(OptionValue const& value);  // the same; "none" of a number that is none unless it is written
-std::string type_name(OptionValue const& value);  // "number", "text", "list of texts"
+std::string type_name(OptionValue const& value);     // "number", "text", "list of texts"
 // converts what TOML wrote to what the member wants (integer -> double); nothing when it does not fit
 std::optional<OptionValue> converted(OptionValue const& given, OptionValue const& wanted_type);
 
@@ -105,11 +105,21 @@ Problem unknown_key(Section const& section, Setting const& setting, std::vector<
 Problem wrong_type(Section const& section, Setting const& setting, OptionValue const& wanted);
 std::string range_text(double least, double most, std::vector<std::string> const& words);
 
+// a key that programs before this one had, and what to do about it
+struct RetiredKey {
+  std::string key, help;
+};
+Problem retired_key(Section const& section, Setting const& setting, RetiredKey const& retired);
+
 template <class Options>
 class OptionTable {
  public:
-  OptionTable(std::string section, std::string meaning, std::vector<Option<Options>> options)
-      : section_(std::move(section)), meaning_(std::move(meaning)), options_(std::move(options)) {}
+  OptionTable(std::string section, std::string meaning, std::vector<Option<Options>> options,
+              std::vector<RetiredKey> retired = {})
+      : section_(std::move(section)),
+        meaning_(std::move(meaning)),
+        options_(std::move(options)),
+        retired_(std::move(retired)) {}
 
   std::string const& section() const { return section_; }
   std::string const& meaning() const { return meaning_; }
@@ -125,6 +135,7 @@ class OptionTable {
   std::string section_;
   std::string meaning_;
   std::vector<Option<Options>> options_;
+  std::vector<RetiredKey> retired_;
 };
 
 template <class Options>
@@ -152,6 +163,11 @@ void OptionTable<Options>::apply(Section const& section, Options& options, std::
         continue;
       }
       option.set(options, *value);
+    }
+    for (auto const& one : retired_) {
+      if (one.key != setting.key) continue;
+      is_known = true;
+      problems.push_back(retired_key(section, setting, one));
     }
     if (!is_known) problems.push_back(unknown_key(section, setting, known));
   }

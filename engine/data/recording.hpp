@@ -75,8 +75,6 @@ struct Recording {
   Eigen::VectorXd added_command{}, external_torque{}, enabled{};
   // what passes the gear beside the terms of a model, as that simulator says; no channel: a diagnosis fills it
   Eigen::VectorXd gear_load{};
-  // what is not known of it: n x k, independent errors of one standard deviation each; none
-  Eigen::MatrixXd load_errors{};
   // other joints of the file that move, where OtherJoints::kept asked for them: n x their columns, units as position
   Eigen::MatrixXd other_positions{};
   std::vector<std::string> other_columns{};

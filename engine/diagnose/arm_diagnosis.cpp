@@ -9,7 +9,6 @@
 
 #include "engine/account/arm_sentences.hpp"
 #include "engine/account/sentences.hpp"
-#include "engine/diagnose/all_rows_diagnosis.hpp"
 #include "engine/diagnose/arm_joint.hpp"
 #include "engine/diagnose/arm_masses.hpp"
 #include "engine/diagnose/arms/arm_simulator.hpp"
@@ -37,9 +36,9 @@ struct DecidedRows {
   std::vector<Effect const*> laws{};
 };
 
-class ArmOnAllRows {
+class ArmWork {
  public:
-  ArmOnAllRows(ArmDiagnosisInput const& input, StageSink const& progress)
+  ArmWork(ArmDiagnosisInput const& input, StageSink const& progress)
       : input_(input),
         progress_(progress),
         filter_{input.filter, input.filter_section},
@@ -54,9 +53,6 @@ class ArmOnAllRows {
       parameter_share_ = std::move(apart.parameter_share);
     }
     train.insert(train.end(), std::make_move_iterator(unseen.begin()), std::make_move_iterator(unseen.end()));
-    numbers_.alpha = input.selection.q;
-    numbers_.delta = input.levels.delta;
-    numbers_.least_fall = input.levels.least_fall;
     arm_ = learnt_arm(input, std::move(train), filter_);
   }
 
@@ -69,16 +65,16 @@ class ArmOnAllRows {
     put_errors();
     Diagnosis diagnosis;
     diagnosis.seed = input_.seed;
-    diagnosis.q = input_.selection.q;
+    diagnosis.q = input_.numbers.alpha;
     diagnosis.arm =
         account_for_whole_arm(answers_, {arm_.files.names(true), arm_.files.names(false)}, whole_arm_alpha());
     for (auto& outcome : outcomes_) {
-      JointDiagnosis joint = std::move(outcome.diagnosis.joints.front());
-      joint.verdict = outcome.diagnosis.verdict;
-      joint.reason = std::move(outcome.diagnosis.reason);
+      JointDiagnosis joint = std::move(outcome.joints.front());
+      joint.verdict = outcome.verdict;
+      joint.reason = std::move(outcome.reason);
       diagnosis.joints.push_back(std::move(joint));
     }
-    credit_laws_of_whole_arm(answers_, numbers_.most_of_it, diagnosis.joints);
+    credit_laws_of_whole_arm(answers_, input_.numbers.most_of_it, diagnosis.joints);
     diagnosis.verdict = verdict_of_arm(diagnosis.joints, diagnosis.arm->effects);
     diagnosis.reason = arm_reason_sentence(diagnosis);
     return diagnosis;
@@ -86,12 +82,12 @@ class ArmOnAllRows {
 
  private:
   std::size_t training() const { return input_.train.size(); }
-  double whole_arm_alpha() const { return numbers_.whole_arm_share * numbers_.alpha; }
+  double whole_arm_alpha() const { return input_.numbers.whole_arm_share * input_.numbers.alpha; }
 
   // whether any were found
   bool take_laws_of_whole_arm() {
     if (progress_) progress_("whole arm", 0, 1);
-    answers_.push_back(laws_of_whole_arm(input_, arm_.files, arm_.rows, arm_.noise(), numbers_));
+    answers_.push_back(laws_of_whole_arm(input_, arm_.files, arm_.rows, arm_.noise(), input_.numbers));
     auto const& accepted = answers_.back().accepted;
     if (!accepted.empty()) arm_ = learnt_arm(input_, without_laws(arm_.files, accepted), filter_);
     if (progress_) progress_("whole arm", 1, 1);
@@ -123,12 +119,12 @@ class ArmOnAllRows {
     JointOfArm const joint = joint_of(j);
     std::vector<Recording> const others(joint.recordings.begin() + 1, joint.recordings.end());
     DiagnosisInput input{joint.recordings.front(), others, joint.regressor, input_.filter, input_.filter_section};
-    input.selection = input_.selection;
-    input.selection.candidates = input_.candidates[j];
-    std::erase_if(input.selection.candidates,
+    input.candidates = input_.candidates[j];
+    input.max_effects = input_.max_effects;
+    std::erase_if(input.candidates,
                   [&](Effect const* law) { return std::find(refuted.begin(), refuted.end(), law) != refuted.end(); });
-    input.selection.q = numbers_.alpha_of_joint(joints_);
-    input.levels = input_.levels;
+    input.numbers = input_.numbers;
+    input.numbers.alpha = input_.numbers.alpha_of_joint(joints_);
     input.seed = input_.seed + j;  // replicates of one joint have nothing in common with those of another
     input.threads = input_.threads;
     input.joint = static_cast<int>(j) + 1;
@@ -136,11 +132,11 @@ class ArmOnAllRows {
     if (!parameter_share_.empty()) input.parameter_share = parameter_share_[j];
     decided_[j].reset();
     auto const why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
-      outcomes_[j] = diagnose_on_all_rows(input, of_joint(j), [&](JointDecision const& made) { keep(j, made); });
+      outcomes_[j] = diagnose_joint(input, of_joint(j), [&](JointDecision const& made) { keep(j, made); });
       return std::nullopt;
     });
     if (why) outcomes_[j] = hopeless_joint(input, *why);
-    hide_masses(outcomes_[j].diagnosis.joints.front());
+    hide_masses(outcomes_[j].joints.front());
   }
 
   // combinations of masses are no numbers for people
@@ -208,7 +204,7 @@ class ArmOnAllRows {
     std::size_t place = 0;
     for (std::size_t j = 0; j < joints_; ++j) {
       if (!decided_[j]) continue;
-      JointDiagnosis& joint = outcomes_[j].diagnosis.joints.front();
+      JointDiagnosis& joint = outcomes_[j].joints.front();
       ModelErrors const &plain = before.of_joints[place], &named = after.of_joints[place++];
       joint.train_relerr = plain.train;
       joint.cv_relerr = plain.held_out;
@@ -219,7 +215,7 @@ class ArmOnAllRows {
         joint.augmented_cv_relerr = named.held_out;
         joint.augmented_validation_relerr = named.validation;
       }
-      Diagnosis& diagnosis = outcomes_[j].diagnosis;
+      Diagnosis& diagnosis = outcomes_[j];
       ModelErrors const own = own_errors(*joint.decision);
       bool const contradicts = contradicts_others(own.judged(), named.judged());
       if (contradicts) has_riddle(diagnosis);
@@ -235,7 +231,8 @@ class ArmOnAllRows {
   // whether sharing the masses leaves more of a joint than all else does
   bool contradicts_others(double own, double pooled) const {
     double const beyond = pooled * pooled - own * own;
-    return own * own < numbers_.most_of_it * pooled * pooled && beyond > input_.levels.delta * input_.levels.delta;
+    return own * own < input_.numbers.most_of_it * pooled * pooled &&
+           beyond > input_.numbers.delta * input_.numbers.delta;
   }
 
   static void has_riddle(Diagnosis& diagnosis) {
@@ -256,18 +253,17 @@ class ArmOnAllRows {
   StageSink const& progress_;
   ArmFilter filter_;
   std::size_t joints_;
-  DecisionNumbers numbers_{};
   LearntArm arm_{};
   std::vector<double> parameter_share_{};            // [N] with a simulator
   std::vector<std::optional<DecidedRows>> decided_;  // [N]; none: hopeless
   std::vector<WholeArmAnswer> answers_{};
-  std::vector<JointOutcome> outcomes_;  // [N]
+  std::vector<Diagnosis> outcomes_;  // [N]
 };
 
 }  // namespace
 
 Diagnosis diagnose_arm(ArmDiagnosisInput const& input, StageSink const& progress) {
-  return ArmOnAllRows(input, progress).run();
+  return ArmWork(input, progress).run();
 }
 
 }  // namespace torquescope

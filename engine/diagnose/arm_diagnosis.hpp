@@ -27,14 +27,10 @@ struct ArmDiagnosisInput {
   std::vector<std::vector<Effect const*>> const& candidates;  // [N]
   FilterOptions const& filter;
   Section const& filter_section;
-  SelectionOptions selection{};  // but for its candidates
-  DecisionLevels levels{};
-  std::size_t twins = 200;
+  std::size_t max_effects = 5;
+  DecisionNumbers numbers{};
   std::uint64_t seed = 0;
   int threads = 1;
-  Ablation ablation{};
-  ReversalRows reversals = ReversalRows::both;
-  TwinExchange* exchange = nullptr;
 };
 
 Diagnosis diagnose_arm(ArmDiagnosisInput const& input, StageSink const& progress);

@@ -17,7 +17,7 @@ Regressor own_terms(ArmModel const& model, std::size_t joint) {
   return {terms, model.chain().joints[joint].kind, friction ? friction->velocity_deadband() : 0.0};
 }
 
-JointOutcome hopeless_joint(DiagnosisInput const& input, Hopeless const& why) {
+Diagnosis hopeless_joint(DiagnosisInput const& input, Hopeless const& why) {
   Diagnosis diagnosis;
   diagnosis.verdict = why.verdict;
   diagnosis.finding = why.finding;
@@ -29,7 +29,7 @@ JointOutcome hopeless_joint(DiagnosisInput const& input, Hopeless const& why) {
   joint.unit_torque = in_torque_unit(revolute ? "N m" : "N", input.train.torque_unit);
   diagnosis.joints.push_back(std::move(joint));
   diagnosis.reason = reason_sentence(diagnosis);
-  return {std::move(diagnosis), {}};
+  return diagnosis;
 }
 
 }  // namespace torquescope

@@ -14,6 +14,6 @@ namespace torquescope {
 Regressor own_terms(ArmModel const& model, std::size_t joint);
 
 // the joint of an input, where there is nothing to tell but why
-JointOutcome hopeless_joint(DiagnosisInput const& input, Hopeless const& why);
+Diagnosis hopeless_joint(DiagnosisInput const& input, Hopeless const& why);
 
 }  // namespace torquescope

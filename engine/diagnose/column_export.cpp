@@ -1,143 +1,97 @@
 #include "engine/diagnose/column_export.hpp"
 
-#include <algorithm>
-#include <memory>
+#include <span>
 #include <utility>
 
 #include "engine/base/parallel.hpp"
-#include "engine/data/encoder_step.hpp"
+#include "engine/data/from_zero.hpp"
+#include "engine/infer/all_rows/law_shape.hpp"
+#include "engine/infer/all_rows/sticking_shape.hpp"
 #include "engine/infer/pipeline/simulator_gap.hpp"
-#include "engine/infer/search/shape_refinement.hpp"
-#include "engine/infer/validation/unseen_record.hpp"
 
 namespace torquescope {
 namespace {
 
-double smoothing_cutoff(RecordPipeline const& pipeline) {
-  return pipeline.cutoff_hz() > 0.0 ? pipeline.cutoff_hz() : 0.4 * pipeline.kept_rate_hz();
-}
-
-// a recording compared with itself: candidates see its own motion, and no replicate takes chance off what they explain
-TwinComparison by_itself(RecordPipeline const& pipeline, ProcessedRecord record) {
-  TwinComparison result;
-  auto& rows = result.rows;
-  rows.rate_hz = pipeline.kept_rate_hz();
-  rows.kept_rows = record.kept_rows;
-  auto const pick = [&](Eigen::VectorXd const& signal) { return pipeline.picked(signal, record); };
-  rows.time_s = pick(record.motion->time_s);
-  rows.q = pick(record.motion->q);
-  rows.dq = pick(record.motion->dq);
-  rows.ddq = pick(record.motion->ddq);
-  rows.torque = record.torque;
-  rows.residual = record.residual;
-  Eigen::Index const n = record.torque.size();
-  rows.twin_mean = Eigen::VectorXd::Zero(n);
-  rows.twins = Eigen::MatrixXd::Zero(n, 2);
-  result.common = std::move(record);
-  return result;
-}
-
-// one recording with all that its columns look into; stays where it is made
-struct MeasuredRecord {
-  MeasuredRecord(RecordPipeline&& made_pipeline, ProcessedRecord record, BaselineReference const& reference)
-      : pipeline(std::move(made_pipeline)),
-        comparison(by_itself(pipeline, std::move(record))),
-        columns(pipeline, comparison, reference, reference.parameters) {}
-  MeasuredRecord(MeasuredRecord const&) = delete;
-  MeasuredRecord& operator=(MeasuredRecord const&) = delete;
-
-  RecordColumns all_columns(std::string name, std::vector<ShapedCandidate> const& candidates, int threads) const {
-    auto const& rows = comparison.rows;
-    RecordColumns result{
-        std::move(name), rows.rate_hz, pipeline.cutoff_hz(), rows.kept_rows,           rows.time_s, rows.q,
-        rows.dq,         rows.ddq,     rows.torque,          comparison.common.columns};
-    result.candidates.resize(candidates.size());
-    parallel_for(candidates.size(), threads, [&](std::size_t i, int) {
-      result.candidates[i] = columns.columns(*candidates[i].effect, candidates[i].shape);
-    });
-    return result;
-  }
-
-  RecordPipeline pipeline;
-  TwinComparison comparison;
-  CandidateColumns columns;
+struct PlainRecordings {
+  Recording train{};
+  std::vector<Recording> validate{};
 };
 
-RecordPipeline pipeline_of(DiagnosisInput const& input, Recording const& recording) {
-  return {input.regressor, input.filter, recording.rate_hz, recording.position.size(), input.filter_section};
-}
-
-// the grid point that explains most; is_testable stays false when none explains anything
-EffectScan best_on_grid(CandidateColumns const& columns, Effect const& effect, int threads) {
-  constexpr std::size_t points_at_once = 16;
-  EffectScan scan;
-  scan.effect = &effect;
-  scan.grid = shape_grid(effect, columns.scales());
-  Eigen::VectorXd const& residual = columns.comparison().rows.residual;
-  std::vector<double> gains(scan.grid.size(), 0.0);
-  parallel_for((gains.size() + points_at_once - 1) / points_at_once, threads, [&](std::size_t slice, int) {
-    std::size_t const first = slice * points_at_once, last = std::min(gains.size(), first + points_at_once);
-    std::vector<std::vector<double>> shapes;
-    for (std::size_t i = first; i < last; ++i) shapes.push_back(scan.grid.point(i));
-    auto const groups = columns.groups(effect, shapes);
-    for (std::size_t i = first; i < last; ++i) {
-      auto const& group = groups[i - first];
-      if (group.rank() > 0) gains[i] = bounded_gain(group, group.q.transpose() * residual).gain;
-    }
-  });
-  auto const best = std::max_element(gains.begin(), gains.end());
-  scan.is_testable = *best > 0.0;
-  scan.best_point = static_cast<std::size_t>(best - gains.begin());
-  scan.shape = scan.grid.point(scan.best_point);
-  return scan;
-}
-
-void shape_candidates(ColumnExport& result, CandidateColumns const& columns, DiagnosisInput const& input) {
-  ShapeSearch const search = shape_search(input.selection.shape_optimiser, input.seed);
-  for (Effect const* effect : input.selection.candidates) {
-    if (!effect->exists_on(columns.joint())) continue;
-    EffectScan const scan = best_on_grid(columns, *effect, input.threads);
-    if (!scan.is_testable) {
-      result.not_testable.push_back(effect);
-      continue;
-    }
-    RefinedEffect refined = refine_shape(columns, scan, columns.comparison().rows.residual, search, input.threads);
-    result.candidates.push_back({effect, std::move(refined.shape), scan.grid.size(), refined.gain});
+PlainRecordings less_simulator(DiagnosisInput const& input) {
+  PlainRecordings all{from_zero(input.train), {}};
+  for (auto const& one : input.validate) all.validate.push_back(from_zero(one));
+  if (all.train.simulated_torque.size() == 0) return all;
+  auto const pipeline = [&](Recording const& one) {
+    return RecordPipeline(input.regressor, input.filter, one.rate_hz, one.position.size(), input.filter_section);
+  };
+  SimulatorGap gap = gap_to_simulator(all.train, pipeline(all.train));
+  all.train = std::move(gap.recording);
+  for (auto& one : all.validate) {
+    RecordPipeline const own = pipeline(one);
+    one = without_simulator(std::move(one), own, gap.simulator_parameters);
   }
+  return all;
+}
+
+// of candidates at their shapes, as the model treats the samples of one recording
+RecordColumns record_columns(std::string name, FittedModel const& by, Strip const& strip,
+                             std::vector<ShapedCandidate> const& candidates) {
+  auto const& filter = *strip.filters->laws;
+  ModelOnStrips const on(*by.model, {&strip, 1});
+  auto const samples =
+      treated_samples(on, 0.0, by.fitted->parameters().head(on.parameters()), by.fitted->chosen().fit.sticking);
+  auto const at_rows = [&](Eigen::VectorXd const& signal) { return Eigen::VectorXd(filter.pick(signal)(strip.rows)); };
+  Motion const& motion = strip.motion;
+  RecordColumns made;
+  made.recording = std::move(name);
+  made.kept_rate_hz = filter.kept_rate_hz() / static_cast<double>(strip.rows_apart);
+  made.cutoff_hz = strip.filters->cutoff_hz;
+  for (Eigen::Index const row : strip.rows) made.kept_rows.push_back(row / strip.rows_apart);
+  made.time_s = at_rows(motion.time_s);
+  made.q = at_rows(motion.q);
+  made.dq = at_rows(motion.dq);
+  made.ddq = at_rows(motion.ddq);
+  made.torque = torque_on_rows(on, samples, 0.0);
+  made.regressor = model_on_rows(on, samples);
+  for (auto const& [effect, shape, points, gain] : candidates)
+    made.candidates.push_back(on_rows(strip, columns_of(*effect, {shape}, strip, on.baseline(0)), samples.front().side,
+                                      samples.front().weight));
+  return made;
 }
 
 }  // namespace
 
 ColumnExport export_columns(DiagnosisInput const& input) {
-  Recording train = from_zero(input.train);
-  RecordPipeline pipeline = pipeline_of(input, train);
-  Eigen::VectorXd simulator_parameters;
-  if (train.simulated_torque.size() > 0) {
-    SimulatorGap gap = gap_to_simulator(train, pipeline);
-    simulator_parameters = std::move(gap.simulator_parameters);
-    train = std::move(gap.recording);
-  }
-  ProcessedRecord record = pipeline.process(train);
-  auto const size = input.regressor.size();
-  BaselineReference reference{.parameters = record.parameters, .gear_load = gear_load_of(train)};
-  reference.scales = fitted_baseline(input.regressor, {record.parameters.data(), size}, record.motion,
-                                     smoothing_cutoff(pipeline), encoder_step(train), reference.beside_motion())
-                         .scales;
+  PlainRecordings const all = less_simulator(input);
+  DecisionQuestion const question{{&all.train, 1}, all.validate, input.regressor, input.filter, input.filter_section};
+  JointStrips const strips = joint_strips(question);
+  DelayChoice const as_read{DelaySearch::given, 0.0, 0.0};
+  FittedModel const plain = fitted_model(strips, input.regressor, {}, nullptr, as_read);
+  FittedModel const model = fitted_model(strips, input.regressor, {}, plain.fitted.get(), as_read);
+  JointScales const& scales = model.model->reference().scales;
+  std::vector<Effect const*> laws;
+  for (auto const* effect : input.candidates)
+    if (effect->exists_on(scales.joint)) laws.push_back(effect);
+  auto const questions = law_questions(laws, scales, sticking_bounds(strips.training.front().resolution).most_length);
+  FittedStrips const& fitted = *model.fitted;
+  Score const score(fitted.chosen().fit.columns, fitted.residual(), fitted.guard());
+  auto const found = scan_recording(questions, fitted, score, FoldKind::whole, input.threads);
+  std::vector<RefinedLaw> refined(questions.size());
+  parallel_for(questions.size(), input.threads, [&](std::size_t i, int) {
+    refined[i] = refined_law(questions[i], found[i], fitted, score, FoldKind::whole, input.numbers.least_fall);
+  });
+  auto const n = static_cast<double>(fitted.residual().size());
   ColumnExport result;
-  {
-    MeasuredRecord const measured(std::move(pipeline), std::move(record), reference);
-    shape_candidates(result, measured.columns, input);
-    result.train = measured.all_columns(train.name, result.candidates, input.threads);
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    if (refined[i].rms > 0.0)
+      result.candidates.push_back(
+          {questions[i].effect, refined[i].shape, questions[i].grid.size(), refined[i].rms * refined[i].rms * n});
+    else
+      result.not_testable.push_back(questions[i].effect);
   }
-  for (auto const& given : input.validate) {
-    Recording unseen = from_zero(given);
-    RecordPipeline own = pipeline_of(input, unseen);
-    if (simulator_parameters.size() > 0) unseen = without_simulator(std::move(unseen), own, simulator_parameters);
-    reference.gear_load = gear_load_of(unseen);
-    ProcessedRecord prepared = own.prepare(unseen);
-    MeasuredRecord const measured(std::move(own), std::move(prepared), reference);
-    result.validate.push_back(measured.all_columns(unseen.name, result.candidates, input.threads));
-  }
+  result.train = record_columns(all.train.name, model, strips.training.front(), result.candidates);
+  for (std::size_t k = 0; k < all.validate.size(); ++k)
+    result.validate.push_back(record_columns(all.validate[k].name, model, strips.validation[k], result.candidates));
   return result;
 }
 

@@ -2,14 +2,15 @@
 // The columns of every candidate on a recording, for other methods: same pipeline, catalogue and search of shapes, but
 // no replicates.
 //
-// Rows       those of RecordPipeline::process() on the recording itself
-// Motion     the recording's own, filtered (a diagnosis uses a noise-free one, candidate_columns.hpp)
-// Shape      where the effect explains most of the least-squares residual, signs kept: grid (shape_grid.hpp), then the
-//            refinement of a diagnosis. `grid_points` and the count of shapes say how much was searched
+// Rows       those of a decision (all_rows/strip.hpp): all samples, those at rest as the model treats them; a delay of
+//            the torque is no nuisance here, it is a candidate
+// Motion     the recording's own, filtered
+// Shape      where the effect leaves least of the least-squares residual on held-out folds: grid (shape_grid.hpp), then
+//            the refinement of a decision. `grid_points` says how much was searched
 // Validation the same columns, at the shape found in training, on every validation recording
 // Simulator  a recording with a simulator's torque is exported less what that simulator explains
-// Units      SI. Errors: as RecordPipeline
-// Threads    spreads grid points over `threads`; same bits for any number
+// Units      SI. Errors: as joint_strips()
+// Threads    spreads effects over `threads`; same bits for any number
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -23,9 +24,8 @@ namespace torquescope {
 struct RecordColumns {
   std::string recording{};
   double kept_rate_hz = 0.0;
-  double cutoff_hz = 0.0;  // of the parallel filter: rows closer than its periods repeat each other
-  std::vector<Eigen::Index>
-      kept_rows{};  // of each row: index among the kept samples; a step above 1 is a masked reversal
+  double cutoff_hz = 0.0;                 // of the parallel filter: rows closer than its periods repeat each other
+  std::vector<Eigen::Index> kept_rows{};  // of each row: index among the kept samples; above 1 a row was left out
   Eigen::VectorXd time_s{}, q{}, dq{}, ddq{};
   Eigen::VectorXd torque{};                   // filtered
   Eigen::MatrixXd regressor{};                // of the model, filtered
@@ -36,7 +36,7 @@ struct ShapedCandidate {
   Effect const* effect = nullptr;
   std::vector<double> shape{};
   std::size_t grid_points = 0;
-  double gain = 0.0;  // energy of the residual it explains there
+  double gain = 0.0;  // energy of the residual that it explains there
 };
 
 struct ColumnExport {

@@ -7,48 +7,9 @@
 #include "engine/fit/statistics/scaled_solution.hpp"
 #include "engine/infer/locate/acting_region.hpp"
 #include "engine/infer/locate/map_axes.hpp"
-#include "engine/infer/pipeline/reversal_mask.hpp"
 
 namespace torquescope {
 namespace {
-
-Eigen::VectorXd parameters_of(ModelStage const& stage, std::size_t i) {
-  auto const* effect = stage.model().effects()[i].effect;
-  return stage.estimate().segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
-                                  static_cast<Eigen::Index>(effect->n_linear()));
-}
-
-// on the rows, as it is
-Eigen::VectorXd whole_torque(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
-  auto const& [effect, shape] = stage.model().effects()[i];
-  return columns.plain_columns(*effect, shape) * parameters_of(stage, i);
-}
-
-// What no parameters of the model's own terms would imitate: by so much the joint deviates from its model. A stiffness
-// that gravity takes up adds nothing, however large it is
-Eigen::VectorXd beside_the_model(ModelStage const& stage, Eigen::VectorXd const& torque) {
-  Eigen::MatrixXd const own = stage.comparison.common.columns_themselves().leftCols(
-      static_cast<Eigen::Index>(stage.model().regressor().size()));
-  return beside_columns(own, torque);
-}
-
-// What is cut off at the ends of the record has no place: the filters swing there. Nor has friction at rest, where it
-// is what keeps the joint there, no effect of the motion: a joint that stands half of the time would have all its
-// friction there
-std::vector<Eigen::Index> acting_samples(ModelStage const& stage, Effect const& effect) {
-  Motion const& motion = stage.comparison.common.motion;
-  RecordPipeline const& pipeline = *stage.pipeline;
-  Eigen::Index const n = motion.q.size();
-  Eigen::VectorXd const kept = pipeline.picked(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)));
-  auto const from = static_cast<Eigen::Index>(std::lround(kept[0]));
-  Eigen::Index const end = static_cast<Eigen::Index>(std::lround(kept[kept.size() - 1])) + 1;
-  std::vector<bool> const at_rest = resting_samples(motion.dq, pipeline.rate_hz(), pipeline.cutoff_hz());
-  bool const opposes_motion = effect.parity() == Parity::odd;
-  std::vector<Eigen::Index> samples;
-  for (Eigen::Index k = from; k < end; ++k)
-    if (!opposes_motion || !at_rest[static_cast<std::size_t>(k)]) samples.push_back(k);
-  return samples;
-}
 
 // the reading of the map: torque that turns with the direction is counted along the motion
 Eigen::VectorXd reading_sign(SignatureAxis axis, MismatchRows const& rows) {
@@ -157,25 +118,6 @@ EffectAccount account_of(EffectOnRecording const& on) {
   SignatureAxis const drawn = is_spectrum(axis) ? SignatureAxis::position : axis;
   account.curve = curve_on(drawn, on.rows, on.whole, on.rows.residual - on.rows.twin_mean, joint);
   return account;
-}
-
-EffectAccount account_of(ModelStage const& stage, std::size_t i) {
-  CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
-  MismatchRows const rows = in_torque_itself(stage.comparison.rows);
-  auto const& shaped = stage.model().effects()[i];
-  auto const& [effect, shape] = shaped;
-  Regressor const& regressor = stage.model().regressor();
-  Motion const& motion = stage.comparison.common.motion;
-  auto const samples = acting_samples(stage, *effect);
-  Eigen::VectorXd const torque =
-      beside_the_level(regressor, *effect, regressor.columns(motion, stage.model().reference().given.get()),
-                       columns.signals(*effect, shape) * parameters_of(stage, i));
-  MotionAxes const axes = motion_axes(stage.model(), stage.comparison.common, stage.parameters());
-  Eigen::VectorXd const whole = whole_torque(stage, columns, i);
-  return account_of(EffectOnRecording{
-      shaped, columns.scales(), axes.picked([&](Eigen::VectorXd const& all) { return Eigen::VectorXd(all(samples)); }),
-      torque(samples), beside_the_model(stage, whole),
-      beside_the_level(regressor, *effect, stage.comparison.common.columns_themselves(), whole), rows});
 }
 
 }  // namespace torquescope

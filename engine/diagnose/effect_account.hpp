@@ -11,7 +11,8 @@
 // Units      SI
 // Threads    free functions
 
-#include "engine/infer/search/model_stage.hpp"
+#include "engine/infer/all_rows/fitted_model.hpp"
+#include "engine/infer/locate/mismatch_rows.hpp"
 #include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
@@ -34,8 +35,6 @@ struct EffectOnRecording {
   MismatchRows const& rows;  // of the model with the effect; in the torque itself
 };
 EffectAccount account_of(EffectOnRecording const& effect);
-
-EffectAccount account_of(ModelStage const& stage, std::size_t i);
 
 // What an effect adds to a baseline that keeps its own level where the level is nobody's: a spring's torque is counted
 // from its mean and not from where the encoder reads 0. columns: of the regressor, as `torque` is sampled

@@ -5,7 +5,6 @@
 
 #include "engine/account/name_list.hpp"
 #include "engine/data/excitation.hpp"
-#include "engine/diagnose/model_account.hpp"
 #include "engine/infer/pipeline/recording_checks.hpp"
 #include "engine/infer/pipeline/shared_constants.hpp"
 #include "engine/infer/pipeline/simulator_gap.hpp"
@@ -47,7 +46,7 @@ std::optional<Hopeless> FirstLook::look(Recording& recording) {
   // columns that the motion cannot tell apart
   auto why = verdict_of(Verdict::insufficient, [&] {
     ProcessedRecord const record = pipeline.process(recording);
-    relerr_ = relative_error(record);
+    relerr_ = record.residual.norm() / record.whole_torque().norm();
     static_torque_ = check_static_torque(record, pipeline, limits_of(excitation_, relerr_));
     // a joint that its neighbours load may well give work away
     return recording.other_positions.cols() > 0 ? std::nullopt : check_sign(less_given(record, recording, regressor()));

@@ -1,381 +1,377 @@
 #include "engine/diagnose/joint_diagnosis.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <map>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "engine/account/arm_sentences.hpp"
 #include "engine/account/error_words.hpp"
 #include "engine/account/excitation_advice.hpp"
-#include "engine/account/name_list.hpp"
 #include "engine/account/sentences.hpp"
 #include "engine/account/withdrawn_names.hpp"
-#include "engine/base/quantity_text.hpp"
+#include "engine/base/contract.hpp"
 #include "engine/base/torque_unit.hpp"
+#include "engine/data/from_zero.hpp"
+#include "engine/diagnose/decision_account.hpp"
 #include "engine/diagnose/first_look.hpp"
-#include "engine/diagnose/joint_search.hpp"
-#include "engine/diagnose/model_account.hpp"
-#include "engine/diagnose/named_effects.hpp"
+#include "engine/diagnose/loop_names.hpp"
 #include "engine/diagnose/neighbour_load.hpp"
 #include "engine/diagnose/recorded_unit.hpp"
+#include "engine/diagnose/strip_account.hpp"
+#include "engine/effects/carry_over.hpp"
+#include "engine/fit/statistics/block_jackknife.hpp"
+#include "engine/infer/all_rows/decision_verdict.hpp"
+#include "engine/infer/all_rows/decision_words.hpp"
+#include "engine/infer/all_rows/delay_decision.hpp"
+#include "engine/infer/all_rows/joint_decision.hpp"
+#include "engine/infer/all_rows/kept_errors.hpp"
+#include "engine/infer/all_rows/loop_stage.hpp"
 #include "engine/infer/locate/largest_parts.hpp"
 #include "engine/infer/locate/mismatch_map.hpp"
-#include "engine/infer/moving_rows/kept_model.hpp"
-#include "engine/infer/moving_rows/verdict_table.hpp"
-#include "engine/infer/pipeline/motion_limits.hpp"
-#include "engine/infer/replicates/echoed_reference.hpp"
-#include "engine/infer/search/blocked_mismatch.hpp"
-#include "engine/infer/search/candidate_table.hpp"
-#include "engine/infer/search/channel_timing.hpp"
-#include "engine/infer/search/detection_power.hpp"
-#include "engine/infer/validation/level_change.hpp"
-#include "engine/infer/validation/unseen_nuisances.hpp"
-#include "engine/infer/validation/unseen_record.hpp"
+#include "engine/infer/pipeline/echoed_reference.hpp"
 
 namespace torquescope {
 namespace {
 
-std::string without_reference_sentence(bool is_echo) {
-  std::string const why = is_echo ? "The reference is the measured motion itself, in which no controller shows"
-                                  : "No reference was recorded";
-  return why +
-         ": replicates follow the measured motion, and the torque's noise is read from what the model leaves, so that "
-         "small effects hide (reference = \"COLUMN\" in recording.columns: what was commanded).";
+ParameterEstimate estimate(std::string name, std::string unit, FittedNumber const& number) {
+  double const width = jackknife_quantile * number.deviation;
+  return {std::move(name), std::move(unit), number.value, number.value - width, number.value + width};
 }
 
-LeftOut told(LeftOutRows const& rows) {
-  return {rows.time_share(), rows.energy_share(), std::sqrt(rows.energy / rows.torque),
-          std::sqrt(rows.after / rows.torque), rows.torque};
+// so many that chance below alpha can be counted
+std::int64_t replicates_for(DecisionNumbers const& numbers) {
+  return std::max(numbers.replicates, static_cast<std::int64_t>(std::ceil(1.0 / numbers.correction_alpha() - 1e-9)));
+}
+
+// candidates that some named effect could be as well
+void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect> const& effects) {
+  for (auto& candidate : candidates)
+    for (auto const& effect : effects) {
+      // one of a class that holds physics too is no fault of the recording yet
+      if (candidate.name == effect.name && candidate.decision == Decision::measurement && !is_fault(effect))
+        candidate.decision = Decision::named;
+      if (std::find(effect.equivalent.begin(), effect.equivalent.end(), candidate.name) == effect.equivalent.end())
+        continue;
+      candidate.decision = Decision::equivalent;
+      candidate.reason = "this motion cannot tell it from " + effect.name;
+    }
 }
 
 class JointWork {
  public:
-  JointWork(DiagnosisInput const& input, StageSink const& progress)
-      : input_(input), progress_(progress), first_look_(input) {
+  JointWork(DiagnosisInput const& input, StageSink const& progress, DecisionSink const& further)
+      : input_(input), progress_(progress), further_(further), first_look_(input) {
     bool const revolute = input.regressor.joint() == JointKind::revolute;
     joint_.unit_position = revolute ? "rad" : "m";
     joint_.unit_torque = in_torque_unit(revolute ? "N m" : "N", input.train.torque_unit);
     joint_.joint = input.joint;
     joint_.name = input.joint_name;
+    joint_.rows = ErrorRows::all;
     diagnosis_.seed = input.seed;
-    diagnosis_.q = input.selection.q;
+    diagnosis_.q = input.numbers.alpha;
   }
 
-  JointOutcome run() {
-    diagnose();
+  Diagnosis run() && {
+    decide();
     joint_.verdict = diagnosis_.verdict;
-    for (auto const& change : level_changes_) joint_.remarks.push_back(level_change_sentence(joint_, change));
-    if (selection_.baseline && !has_reference_)
-      joint_.reference_remark = without_reference_sentence(input_.train.reference.size() > 0);
     diagnosis_.joints.push_back(std::move(joint_));
     diagnosis_.reason = whole_reason(diagnosis_);
-    return {std::move(diagnosis_), std::move(laws_), std::move(tried_)};
+    return std::move(diagnosis_);
   }
 
  private:
-  void tell(char const* stage, std::size_t done, std::size_t total) const {
-    if (progress_) progress_(stage, done, total);
-  }
-
   void hopeless(Hopeless const& why) {
     diagnosis_.verdict = why.verdict;
     diagnosis_.finding = why.finding;
     diagnosis_.way_out = why.way_out;
   }
 
-  void diagnose() {
-    Recording recording = without_echoed_reference(from_zero(input_.train));
-    has_reference_ = recording.reference.size() > 0;
-    // a job that asks for the impossible is refused; a recording that cannot carry it is a verdict
-    auto why = verdict_of(Verdict::data_fault, [&] { return first_look_.look(recording); });
-    joint_.train_relerr = first_look_.relerr();
+  void decide() {
+    std::vector<Recording> training{without_echoed_reference(from_zero(input_.train))}, validation;
+    auto why = verdict_of(Verdict::data_fault, [&] { return first_look_.look(training.front()); });
     joint_.remarks = first_look_.remarks();
     if (input_.further_training > 0) joint_.remarks.push_back(several_recordings_sentence(training_names(input_)));
     if (!why && input_.validate.empty()) why = first_look_.place_is_time();
     if (why) return hopeless(*why);
-    OwnedRecordings others{{}, input_.further_training};
-    for (auto const& given : input_.validate)
-      others.all.push_back(from_zero(first_look_.less_simulator(without_echoed_reference(given))));
-    // an arm's fit has seen the rows of training: what is not known of it shows in none of them
-    for (std::size_t i = 0; i < others.training; ++i) others.all[i].load_errors = {};
-    JointSearchAnswer answer =
-        search_joint({input_, first_look_, has_reference_, levels(), progress_}, recording, others);
-    if (!answer.found.too_short.empty()) joint_.remarks.push_back(too_few_rows_sentence(answer.found.too_short));
-    if (answer.why) return hopeless(*answer.why);
-    found_ = std::move(answer.found);
-    selection_ = found_.kept.state.selection;
-    tell("verify", 0, selection_.accepted.size());  // which may have made twins
-    account_for_models(selection_, timing_remark(found_.torque_late_s, input_.train.rate_hz), joint_);
-    joint_.timing_sentence = timing_sentence(found_.torque_late_s, input_.train.rate_hz);
-    joint_.candidates = candidate_table(selection_, input_.selection.q, blocked_mismatch(baseline()).excess);
-    joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
-    if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
-    tell_in_recorded_unit(joint_);
-    if (!selection_.accepted.empty()) account_for_effects();
-    account_for_unseen();
-    if (!found_.search->states.front().adequacy.holds())
-      neighbours_ = neighbour_load(*found_.recording, *baseline().pipeline, baseline().comparison.recording);
-    budget();
-    decide();
-    if (!selection_.accepted.empty()) tried_ = law_torques();
-    if (!joint_.effects.empty()) laws_ = tried_;
-    tell("verify", selection_.accepted.size(), selection_.accepted.size());
-  }
-
-  DecisionLevels levels() const {
-    DecisionLevels levels = input_.levels;
-    levels.alpha = input_.selection.q;
-    return levels;
-  }
-
-  ModelStage const& final_stage() const { return *selection_.final; }
-  ModelStage const& baseline() const { return *selection_.baseline; }
-
-  void account_for_effects() {
-    NamedEffects named = name_effects(selection_, *found_.kept.state.evidence, input_.selection.candidates, levels(),
-                                      {input_.selection.shape_optimiser, input_.seed, input_.threads, false});
-    joint_.effects = std::move(named.effects);
-    joint_.augmented = std::move(named.parameters);
-    tell_in_recorded_unit(joint_);
-    JointScales const& scales = final_stage().model().reference().scales;
-    FrictionSign const sign = scales.friction_sign();
-    joint_.law_levels = {sign.forward, sign.backward, scales.inertia};
-    place_ = std::move(named.place);
-  }
-
-  void account_for_unseen() {
-    StageSetting const& setting = found_.search->setting;
-    HeldOut& held_out = found_.kept.held_out;
-    joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage(),
-                                              {final_stage().model(), final_stage().estimate()}));
-    joint_.train_left_out = told(left_out_in_training(setting, baseline(), final_stage()));
-    joint_.held_out = {held_out.gain.blocks == 0               ? ""
-                       : found_.others.others().unseen.empty() ? "cross-validated"
-                                                               : "unseen",
-                       held_out.gain.blocks == 0 ? "" : word(held_out.gain.change), held_out.gain.t,
-                       held_out.gain.asked_for, held_out.gain.blocks};
-    std::vector<double> without(final_stage().model().effects().size(), 0.0);
-    for (auto& result : held_out.unseen) {
-      for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.by_effect[i].before - result.energies.after;
-      joint_.forward.push_back(result.forward);
-      auto const& residual = selection_.accepted.empty() ? result.trace.before : result.trace.after;
-      if (auto const change = level_change(result.trace, residual, result.memory_rows, levels().least_fall))
-        level_changes_.push_back(*change);
-      joint_.traces.push_back(std::move(result.trace));
-      joint_.nuisances.insert(joint_.nuisances.end(), result.nuisances.begin(), result.nuisances.end());
-      unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
+    for (std::size_t i = 0; i < input_.validate.size(); ++i) {
+      Recording other = from_zero(first_look_.less_simulator(without_echoed_reference(input_.validate[i])));
+      (i < input_.further_training ? training : validation).push_back(std::move(other));
     }
-    if (found_.others.training > 0) account_for_further_training();
-    if (found_.others.others().unseen.empty()) {
-      auto const& record = baseline().comparison.recording;
-      joint_.traces.push_back(
-          torque_trace(setting.recording, *baseline().pipeline, record, record.residual_itself(), residual_after()));
+    DecisionQuestion question{training, validation, first_look_.regressor(), input_.filter, input_.filter_section};
+    question.laws = input_.candidates;
+    std::erase_if(question.laws, [&](Effect const* law) {
+      bool const is_unknown = law->is_given() && !(training.front().given && training.front().given->of(law->name()));
+      return is_unknown || closes(first_look_.limits(), *law);
+    });
+    question.most_laws = input_.max_effects;
+    question.numbers = input_.numbers;
+    question.numbers.replicates = replicates_for(input_.numbers);
+    question.weighs_rows = !further_;  // an arm pools the rows of its joints
+    question.seed = input_.seed;
+    question.threads = input_.threads;
+    question.progress = [&](char const* stage, std::size_t done, std::size_t total) {
+      if (progress_) progress_(stage, done, total);
+    };
+    why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
+      JointDecision const decision = decide_joint(question);
+      LoopFacts const loop = further_ ? LoopFacts{} : decide_in_loop(question, decision, input_.loop);
+      tell(decision, loop, question);
+      joint_.decision = account_of(decision.facts, word(diagnosis_.verdict));
+      joint_.decision->loop = account_of(loop);
+      if (further_) further_(decision);
+      return std::nullopt;
+    });
+    if (why) hopeless(*why);
+  }
+
+  // one joint of a moving arm: its neighbours' motion says more of the torque than any effect of its own
+  bool others_load_it(Recording const& training, DecisionFacts const& facts) {
+    if (training.other_positions.cols() == 0) return false;
+    JointModel model(first_look_.regressor());
+    model.load_as_in(training);
+    RecordPipeline const pipeline(std::move(model), input_.filter, training.rate_hz, training.position.size(),
+                                  input_.filter_section);
+    auto const load = neighbour_load(training, pipeline, pipeline.process(training));
+    if (!load || load->gain.change != HeldOutChange::lower) return false;
+    double const least = std::min(facts.final.held_out, (1.0 - input_.numbers.least_fall) * facts.baseline.held_out);
+    if (!(load->relerr < least)) return false;
+    joint_.other_joints = other_joints_sentence(joint_, load->columns, load->relerr);
+    return true;
+  }
+
+  // what the recording is to blame for where nothing is named
+  void nothing_named(DecisionFacts const& facts) {
+    auto const blamed = first_look_.blamed_for_silence();
+    if (diagnosis_.verdict == Verdict::unexplained) {
+      if (first_look_.limits().has_no_relation && blamed) hopeless(*blamed);
       return;
     }
-    joint_.validation_left_out = told(held_out.left_out);
-    joint_.validation_torque_energy = held_out.torque;
-    joint_.validation_relerr = std::sqrt(held_out.before / held_out.torque);
-    joint_.augmented_validation_relerr = std::sqrt(held_out.after / held_out.torque);
-    if (double const floor = floor_of(held_out); std::isfinite(floor)) joint_.floor_relerr = floor;
-    for (std::size_t i = 0; i < without.size(); ++i) {
-      double& gain = joint_.effects[place_[i]].gain.validation;
-      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / held_out.before;
+    if (auto const why = first_look_.static_torque()) return hopeless(*why);
+    if (blamed) return hopeless(*blamed);
+    if (diagnosis_.verdict == Verdict::insufficient) hopeless(noise_hides(facts.steps.front().visible));
+  }
+
+  void tell(JointDecision const& decision, LoopFacts const& loop, DecisionQuestion const& question) {
+    DecisionFacts const& facts = decision.facts;
+    torque_rms_ = facts.torque_rms;
+    joint_.train_relerr = facts.baseline.train;
+    joint_.cv_relerr = facts.baseline.held_out;
+    joint_.validation_relerr = facts.baseline.validation;
+    joint_.twins = facts.steps.empty() ? 0 : facts.steps.front().replicates;
+    tell_parameters(joint_.baseline, decision.baseline, facts.baseline_parameters);
+    tell_candidates(facts);
+    DecisionOutcome of;
+    of.neighbours_predict = others_load_it(question.training.front(), facts);
+    // what the rows show beyond chance is there, whether or not its name stands in the loop: unless that is chance
+    DecisionFacts const judged = judged_in_loop(facts, loop);
+    of.was_adequate = was_adequate(judged, input_.numbers) && !facts.delay.is_named;
+    StandingNames const names = standing_names(facts, loop);
+    of.has_names = names.any();
+    of.is_lower = is_lower(facts, loop, input_.numbers.least_fall);
+    of.is_complete = is_complete(std::span(judged.steps).last(judged.last_steps), input_.numbers);
+    of.can_tell_little = !facts.steps.empty() && facts.steps.front().could_hide(input_.numbers.tolerance);
+    if (!of.neighbours_predict && of.has_names && of.is_lower) {
+      tell_errors_with_names(facts.final);
+      tell_effects(decision);
+      keep_standing(joint_, facts, loop, names);
+      // the scan's model is not that of these names
+      if (std::isnan(joint_.augmented_train_relerr))
+        if (auto const errors = kept_errors(question, decision, loop)) tell_errors_with_names(*errors);
+      if (names.command_delay && !facts.delay.is_named) tell_errors_with_delay(facts);
+      // a torque that comes before its motion is a command that the drive follows late: no fault of a channel. One that
+      // comes after it is no physics, whatever else is named beside it
+      bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
+      bool const comes_after = facts.delay.is_named && facts.delay.late_s > 0.0;
+      bool const all_are = std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
+      of.all_on_channel = comes_after || (!follows_command && all_are);
+      of.has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
+                                 [](NamedEffect const& one) { return !one.equivalent.empty(); });
+    }
+    diagnosis_.verdict = verdict_from(of);
+    tell_timing(decision);
+    tell_refitted(question);
+    draw(decision, question);
+    if (joint_.effects.empty() && !of.neighbours_predict) nothing_named(facts);
+    if (diagnosis_.verdict == Verdict::data_fault && !joint_.effects.empty())
+      diagnosis_.way_out = way_out_of_a_fault(joint_, of.is_complete);
+  }
+
+  void tell_errors_with_names(ModelErrors const& errors) {
+    joint_.augmented_train_relerr = errors.train;
+    joint_.augmented_cv_relerr = errors.held_out;
+    joint_.augmented_validation_relerr = errors.validation;
+  }
+
+  // the delay between command and motor shows in the rows as one of the torque
+  void tell_errors_with_delay(DecisionFacts const& facts) {
+    bool const predicts = facts.final.validation == facts.final.validation;
+    (predicts ? joint_.validation_relerr : joint_.cv_relerr) = facts.delay.judged_without;
+    (predicts ? joint_.augmented_validation_relerr : joint_.augmented_cv_relerr) = facts.final.judged();
+  }
+
+  void tell_parameters(std::vector<ParameterEstimate>& into, FittedModel const& by,
+                       std::vector<FittedNumber> const& numbers) const {
+    auto const owners = by.model->column_owners();
+    for (std::size_t k = 0; k < owners.size(); ++k)
+      into.push_back(estimate(owners[k].name, owners[k].unit, numbers[k]));
+  }
+
+  void tell_candidates(DecisionFacts const& facts) {
+    if (facts.steps.empty()) return;
+    for (auto const& law : facts.steps.front().laws) {
+      Candidate candidate;
+      candidate.name = law.effect->name();
+      candidate.family = word(law.effect->family());
+      candidate.z = std::sqrt(law.gain);
+      candidate.p = candidate.q = law.p;
+      candidate.reason = clause(law.refusal);
+      candidate.decision = law.refusal == Refusal::none ? Decision::named : Decision::rejected;
+      joint_.candidates.push_back(std::move(candidate));
     }
   }
 
-  // one fit to all training recordings, and each of them by the fit to the others
-  void account_for_further_training() {
-    StageSetting const& setting = found_.search->setting;
-    RecordingsInTurn const in_turn = recordings_in_turn(setting, found_.others.others().training, selection_);
-    auto const error = [&](double energy) { return std::sqrt(energy / in_turn.torque); };
-    double before = 0.0, after = 0.0;
-    for (auto const& one : in_turn.recordings) {
-      before += one.before.squaredNorm();
-      after += one.after.squaredNorm();
-    }
-    joint_.train_relerr = error(in_turn.fitted_before);
-    joint_.augmented_train_relerr = error(in_turn.fitted_after);
-    joint_.cv_relerr = error(before);
-    joint_.augmented_cv_relerr = error(after);
-    for (auto const& recording : found_.others.others().training) joint_.traces.push_back(trace_in_training(recording));
+  // within what a recording can tell of when its samples were taken: no name, but a number that people need
+  void tell_timing(JointDecision const& decision) {
+    DelayFacts const& delay = decision.facts.delay;
+    bool const is_clear = std::abs(delay.late_s) > jackknife_quantile * delay.deviation_s;
+    if (!is_clear || delay.is_named || allowed_delay(*decision.final.fitted) != delay.late_s) return;
+    joint_.timing_sentence = timing_sentence(delay.late_s, input_.train.rate_hz);
   }
 
-  TorqueTrace trace_in_training(Recording const& recording) const {
-    RecordPipeline const plain = pipeline_for(found_.search->setting, recording, baseline());
-    RecordPipeline full = pipeline_for(found_.search->setting, recording, final_stage());
-    ProcessedRecord const before = plain.prepare(recording);
-    full.restrict_to(before.kept_rows);
-    ProcessedRecord const after = full.prepare(recording);
-    return torque_trace(recording, plain, before, before.torque - before.columns * baseline().estimate(),
-                        after.torque - after.columns * transferable(final_stage()));
-  }
-
-  // of each name; waves of one kind share theirs
-  std::vector<LawTorques> law_torques() const {
-    std::vector<LawTorques> laws(*std::max_element(place_.begin(), place_.end()) + 1);
-    Eigen::VectorXd const elsewhere = transferable(final_stage());
-    add_law_torques(laws, found_.search->setting.recording, final_stage().estimate());
-    for (auto const& recording : found_.others.all) add_law_torques(laws, recording, elsewhere);
-    return laws;
-  }
-
-  void add_law_torques(std::vector<LawTorques>& laws, Recording const& recording,
-                       Eigen::VectorXd const& parameters) const {
-    RecordPipeline const pipeline = pipeline_for(found_.search->setting, recording, final_stage());
-    ProcessedRecord const record = pipeline.prepare(recording);
-    Eigen::MatrixXd const columns = pipeline.model().columns(record.motion, record.drive);
-    for (auto& law : laws) law.push_back(Eigen::VectorXd::Zero(columns.rows()));
-    auto first = static_cast<Eigen::Index>(final_stage().model().regressor().size());
-    for (std::size_t i = 0; i < place_.size(); ++i) {
-      auto const count = static_cast<Eigen::Index>(final_stage().model().effects()[i].effect->n_linear());
-      laws[place_[i]].back() += columns.middleCols(first, count) * parameters.segment(first, count);
-      first += count;
+  // what the error of recordings to predict is no prediction of (own_clock.hpp)
+  void tell_refitted(DecisionQuestion const& question) {
+    if (question.validation.empty()) return;
+    for (auto const& effect : joint_.effects) {
+      Effect const* const known = find_effect(effect.name);
+      if (known != nullptr && is_clock_bound(*known)) joint_.nuisances.push_back(refitted_clause(effect.name));
     }
   }
 
-  // of the final model, on the rows of the baseline: NaN where it keeps none
-  Eigen::VectorXd residual_after() const {
-    auto const& rows = baseline().comparison.recording.kept_rows;
-    auto const& after = final_stage().comparison.recording;
-    Eigen::VectorXd const residual = after.residual_itself();
-    Eigen::VectorXd left = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(rows.size()), unknown);
-    for (std::size_t i = 0, k = 0; i < rows.size(); ++i) {
-      while (k < after.kept_rows.size() && after.kept_rows[k] < rows[i]) ++k;
-      if (k < after.kept_rows.size() && after.kept_rows[k] == rows[i])
-        left[static_cast<Eigen::Index>(i)] = residual[static_cast<Eigen::Index>(k)];
+  void draw(JointDecision const& decision, DecisionQuestion const& question) {
+    joint_.map = map_of(decision, input_.threads);
+    joint_.traces = traces_of(decision, question);
+    joint_.budget = budget_of(decision, first_look_.parameter_share());
+    tell_mismatch(decision);
+    if (joint_.effects.empty()) {
+      joint_.budget.unexplained += joint_.budget.missing_physics;
+      joint_.budget.missing_physics = 0.0;
     }
-    return left;
-  }
-
-  void budget() {
-    double const residual = selection_.first_energy.residual;
-    double const excess = std::max(0.0, selection_.first_excess);
-    double const mismatch = std::min(1.0, excess / residual);
-    double const left = selection_.is_gate_open
-                            ? std::clamp(std::max(0.0, final_stage().energy.excess) / selection_.whole(), 0.0, 1.0)
-                            : 1.0;
-    double const of_model = 1.0 - first_look_.parameter_share();
-    // what no gate passed is noise as far as anybody can tell
-    joint_.budget.parameter_error = first_look_.parameter_share();
-    joint_.budget.missing_physics = of_model * mismatch * (1.0 - left);
-    joint_.budget.unexplained = selection_.is_gate_open ? of_model * mismatch * left : 0.0;
-    joint_.budget.noise =
-        1.0 - joint_.budget.parameter_error - joint_.budget.missing_physics - joint_.budget.unexplained;
-  }
-
-  VerdictFacts facts() const {
-    VerdictFacts facts;
-    facts.is_baseline_adequate = found_.search->states.front().adequacy.holds();
-    facts.laws = selection_.accepted.size();
-    facts.is_adequate = found_.kept.state.adequacy.holds();
-    facts.is_held_out_lower = found_.kept.is_held_out_lower;
-    facts.is_worth_naming = found_.kept.fall >= levels().least_fall;
-    facts.explains_most = found_.kept.explains_most;
-    facts.has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
-                                  [](NamedEffect const& one) { return !one.equivalent.empty(); });
-    facts.all_on_channel =
-        !joint_.effects.empty() && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
-    facts.is_motion_poor = blamed_for_silence().has_value();
-    facts.others_predict_better = others_predict_better();
-    facts.has_relation = !first_look_.limits().has_no_relation || selection_.is_gate_open;
-    return facts;
-  }
-
-  bool others_predict_better() const {
-    if (!neighbours_ || neighbours_->gain.change != HeldOutChange::lower) return false;
-    double const least = selection_.accepted.empty() ? joint_.cv_relerr : joint_.augmented_cv_relerr;
-    return neighbours_->relerr < std::min(least, (1.0 - levels().least_fall) * joint_.cv_relerr);
-  }
-
-  // a motion that could not have shown much, or a noise that hides what is not small
-  std::optional<Hopeless> blamed_for_silence() const {
-    if (auto why = first_look_.blamed_for_silence()) return why;
-    double const visible = visible_share(baseline(), joint_.floor_relerr);
-    if (visible < levels().tolerance) return std::nullopt;
-    return noise_hides(visible);
-  }
-
-  void decide() {
-    VerdictOf const decided = verdict_of(facts());
-    diagnosis_.verdict = decided.verdict;
-    joint_.verdict_reason = word(decided.reason);
-    if (decided.reason == VerdictReason::nothing_left) {
-      if (!joint_.effects.empty()) withdraw(decided.reason);
-      if (auto const why = first_look_.static_torque()) hopeless(*why);
-      return;
-    }
-    if (decided.reason == VerdictReason::too_small) return withdraw(decided.reason);
-    if (decided.reason == VerdictReason::motion_poor || decided.reason == VerdictReason::no_relation)
-      hopeless(*blamed_for_silence());
-    if (decided.reason == VerdictReason::motion_poor) {
-      if (!joint_.effects.empty()) withdraw(decided.reason);
-      return;
-    }
-    if (decided.reason == VerdictReason::other_joints)
-      joint_.other_joints = other_joints_sentence(joint_, neighbours_->columns, neighbours_->relerr);
-    if (!found_.kept.state.adequacy.holds()) {
-      auto const& final = final_stage();
-      joint_.unexplained = largest_parts(mismatch_map(final.comparison.rows, final.reference().scales, input_.threads));
-    } else if (!decided.keeps_names) {
-      joint_.unexplained = largest_parts(joint_.map);
-    }
+    bool const is_left = diagnosis_.verdict == Verdict::partly || diagnosis_.verdict == Verdict::unexplained;
+    if (is_left && decision.final_replicates.cols() > 0)
+      joint_.unexplained = largest_parts(mismatch_map(mismatch_rows(decision.final, decision.final_replicates),
+                                                      decision.baseline.model->reference().scales, input_.threads));
     tell_in_recorded_unit(joint_);
-    if (!decided.keeps_names) return withdraw(decided.reason);
-    ExplainedShare const& explained = found_.kept.held_out.explained;
-    joint_.explained_share = explained.share;
-    joint_.explained_low = explained.low;
-    joint_.explained_high = explained.high;
-    mark_equivalent(joint_.candidates, joint_.effects);
-    for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
-    if (decided.verdict == Verdict::data_fault) diagnosis_.way_out = way_out_of_a_fault(joint_, true);
-    joint_.excitation = advice_for(joint_.effects);
-  }
-
-  // nothing that was named stands
-  void withdraw(VerdictReason reason) {
-    std::string why = "does not make the error on rows it was not fitted to clearly lower";
-    if (reason == VerdictReason::not_held_out && !joint_.effects.empty())
-      joint_.refutation = refutation_clause(joint_, unseen_twins_ran_away_);
-    if (reason == VerdictReason::too_small) {
-      joint_.refutation = too_small_clause(joint_);
-      why = fmt::format("the error on rows it was not fitted to falls by less than {}",
-                        percent_text(levels().least_fall));
-    }
-    if (reason == VerdictReason::most_is_left) {
-      joint_.refutation =
-          too_little_clause(joint_, 1.0 - found_.kept.held_out.gain.after / found_.kept.held_out.gain.before);
-      why = "it explains less than half";
-    }
-    if (reason == VerdictReason::other_joints) why = "the motion of other joints predicts better";
     std::vector<std::string> closest;
     for (auto const& effect : joint_.effects) closest.push_back(effect.name);
-    joint_.excitation = advice_to_confirm(closest.empty() ? closest_of(joint_.candidates) : closest);
-    withdraw_names(joint_.candidates, "withdrawn: " + why);
-    joint_.budget.unexplained += joint_.budget.missing_physics;
-    joint_.budget.missing_physics = 0.0;
-    joint_.effects.clear();
-    joint_.augmented.clear();
-    joint_.augmented_train_relerr = joint_.augmented_validation_relerr = joint_.augmented_cv_relerr = unknown;
-    joint_.train_left_out.augmented_relerr = joint_.validation_left_out.augmented_relerr = unknown;
+    if (!closest.empty())
+      joint_.excitation = advice_for(joint_.effects);
+    else if (diagnosis_.verdict == Verdict::unexplained)
+      joint_.excitation = advice_to_confirm(closest_of(joint_.candidates));
+  }
+
+  // torque that replicates do not leave
+  void tell_mismatch(JointDecision const& decision) {
+    auto const& steps = decision.facts.steps;
+    if (steps.empty() || decision.baseline_replicates.cols() == 0) return;
+    auto const beyond = [](FittedModel const& by, Eigen::MatrixXd const& replicates) {
+      double const energy = by.fitted->residual().head(replicates.rows()).squaredNorm();
+      double const chance = replicates.colwise().squaredNorm().mean();
+      return std::sqrt(std::max(0.0, energy - chance) / static_cast<double>(replicates.rows()));
+    };
+    joint_.twin_energy = energies_of(decision.baseline, decision.baseline_replicates);
+    joint_.omnibus_p = steps.front().correction.p;
+    joint_.mismatch_rms = beyond(decision.baseline, decision.baseline_replicates);
+    joint_.left_rms = beyond(decision.final, decision.final_replicates);
+  }
+
+  void tell_effects(JointDecision const& decision) {
+    JointModel const& model = *decision.final.model;
+    for (std::size_t k = 0; k < model.regressor().size(); ++k) {
+      auto const& owner = model.regressor().column_owners()[k];
+      joint_.augmented.push_back(estimate(owner.name, owner.unit, decision.facts.parameters[k]));
+    }
+    FrictionSign const sign = model.reference().scales.friction_sign();
+    joint_.law_levels = {sign.forward, sign.backward, model.reference().scales.inertia};
+    MismatchRows const rows = mismatch_rows(decision.final, decision.final_replicates);
+    for (std::size_t i = 0; i < decision.facts.accepted.size(); ++i) tell_law(decision, rows, i);
+    if (decision.facts.delay.is_named) tell_delay(decision.facts.delay);
+    tell_in_recorded_unit(joint_);
+    mark_equivalent(joint_.candidates, joint_.effects);
+    for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
+  }
+
+  // waves of one kind are one name, their parameters numbered
+  void tell_law(JointDecision const& decision, MismatchRows const& rows, std::size_t i) {
+    LawFacts const& law = decision.facts.accepted[i];
+    auto const same = std::find_if(joint_.effects.begin(), joint_.effects.end(),
+                                   [&](NamedEffect const& one) { return one.name == law.effect->name(); });
+    bool const is_new = same == joint_.effects.end();
+    if (is_new) {
+      NamedEffect named = named_after(*law.effect);
+      EffectAccount account = account_of(decision, rows, i);
+      named.p = named.q = law.p;
+      named.z = std::sqrt(law.gain);
+      named.region = account.region;
+      named.places = std::move(account.places);
+      named.curve = std::move(account.curve);
+      named.rms = account.rms;
+      named.peak = account.peak;
+      joint_.effects.push_back(std::move(named));
+    }
+    NamedEffect& named = is_new ? joint_.effects.back() : *same;
+    for (auto const* rival : law.rivals)
+      if (std::find(named.equivalent.begin(), named.equivalent.end(), rival->name()) == named.equivalent.end())
+        named.equivalent.push_back(rival->name());
+    std::size_t& count = waves_[law.effect];
+    for (auto& parameter : parameters_of(decision, i, ++count)) {
+      named.parameters.push_back(parameter);
+      joint_.augmented.push_back(std::move(parameter));
+    }
+  }
+
+  std::vector<ParameterEstimate> parameters_of(JointDecision const& decision, std::size_t i, std::size_t number) const {
+    JointModel const& model = *decision.final.model;
+    auto const& numbers = decision.facts.parameters;
+    LawFacts const& law = decision.facts.accepted[i];
+    std::size_t shape_at = model.size();
+    for (std::size_t before = 0; before < i; ++before) shape_at += model.effects()[before].shape.size();
+    std::vector<ParameterEstimate> estimates;
+    auto const& parameters = law.effect->parameters();
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      std::size_t const at = parameters[k].is_shape ? shape_at++ : model.first_parameter(i) + k;
+      FittedNumber const known =
+          at < numbers.size() ? numbers[at] : FittedNumber{law.shape[k - law.effect->n_linear()], unknown};
+      std::string const name = parameters[k].name + (number > 1 ? "_" + std::to_string(number) : "");
+      estimates.push_back(estimate(name, parameters[k].unit_for(model.regressor().joint()), known));
+    }
+    return estimates;
+  }
+
+  void tell_delay(DelayFacts const& delay) {
+    auto const timing = std::find_if(effect_choices().begin(), effect_choices().end(),
+                                     [](Effect const* one) { return one->is_torque_timing(); });
+    if (timing == effect_choices().end()) return;
+    NamedEffect named = named_after(**timing);
+    named.p = named.q = least_p(joint_.twins);
+    named.z = std::sqrt(delay.gain);
+    named.rms = delay.size * torque_rms_;
+    named.parameters.push_back(estimate(named.name, "s", {delay.late_s, delay.deviation_s}));
+    joint_.augmented.push_back(named.parameters.front());
+    joint_.effects.push_back(std::move(named));
   }
 
   DiagnosisInput const& input_;
   StageSink const& progress_;
+  DecisionSink const& further_;
   FirstLook first_look_;
-  Diagnosis diagnosis_;
-  JointDiagnosis joint_;
-  Selection selection_;
-  std::vector<LawTorques> laws_, tried_;
-  std::vector<LevelChange> level_changes_{};
-  std::vector<std::size_t> place_;  // of each accepted effect among the named ones
-  bool has_reference_ = false;      // one that tells a loop
-  bool unseen_twins_ran_away_ = false;
-  std::optional<NeighbourLoad> neighbours_{};
-  SearchedJoint found_{};
+  Diagnosis diagnosis_{};
+  JointDiagnosis joint_{};
+  std::map<Effect const*, std::size_t> waves_{};  // told so far, of each effect
+  double torque_rms_ = 0.0;
 };
 
 }  // namespace
@@ -386,8 +382,8 @@ std::vector<std::string> training_names(DiagnosisInput const& input) {
   return names;
 }
 
-JointOutcome diagnose_joint(DiagnosisInput const& input, StageSink const& progress) {
-  return JointWork(input, progress).run();
+Diagnosis diagnose_joint(DiagnosisInput const& input, StageSink const& progress, DecisionSink const& further) {
+  return JointWork(input, progress, further).run();
 }
 
 }  // namespace torquescope

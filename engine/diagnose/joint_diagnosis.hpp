@@ -1,7 +1,7 @@
 #pragma once
-// The whole diagnosis of one joint: checks, search, adequacy, validation recordings, verdict.
+// The whole diagnosis of one joint, decided on all samples and told as people read it.
 //
-// Verdict    engine/infer/moving_rows/THEORY.md, Verdict
+// Verdict    engine/infer/all_rows/THEORY.md, Adequacy
 // Errors     Error 78 for a filter that does not suit the recording; what a recording is to blame for is a verdict
 // Threads    spreads work over `threads`; same bits for any number
 // Source     METHOD.md
@@ -10,10 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/infer/all_rows/joint_decision.hpp"
 #include "engine/infer/all_rows/loop_stage.hpp"
-#include "engine/infer/moving_rows/decision_levels.hpp"
-#include "engine/infer/replicates/twin_exchange.hpp"
-#include "engine/infer/search/selection.hpp"
 #include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
@@ -24,33 +22,27 @@ struct DiagnosisInput {
   Regressor const& regressor;
   FilterOptions const& filter;
   Section const& filter_section;
-  SelectionOptions selection{};
-  DecisionLevels levels{};
-  std::size_t twins = 200;
+  std::vector<Effect const*> candidates{};
+  std::size_t max_effects = 5;
+  DecisionNumbers numbers{};
   std::uint64_t seed = 0;
   int threads = 1;
-  Ablation ablation{};
-  ReversalRows reversals = ReversalRows::both;
   int joint = 1;                     // its number
   std::string joint_name{};          // for texts: of the position column
   std::size_t further_training = 0;  // so many of the others
   double parameter_share = 0.0;      // SimulatorGap of an arm, whose recordings are without their simulator by now
   LoopOptions loop{};                // [loop] of the job: what led the recordings
-  TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 
 // of all recordings that are fitted
 std::vector<std::string> training_names(DiagnosisInput const& input);
 
-// torque of an effect, per sample: of the first training recording, then of each other
-using LawTorques = std::vector<Eigen::VectorXd>;
+// called before and after every piece of work: "replicates" (how many of how many), "search" (effects)
+using StageSink = std::function<void(std::string const& stage, std::size_t done, std::size_t total)>;
 
-struct JointOutcome {
-  Diagnosis diagnosis;
-  std::vector<LawTorques> laws{};   // of each name, in the order of acceptance
-  std::vector<LawTorques> tried{};  // the same of the search, whether or not the verdict keeps names
-};
+// what else is to be learnt from a decision, while it stands
+using DecisionSink = std::function<void(JointDecision const&)>;
 
-JointOutcome diagnose_joint(DiagnosisInput const& input, StageSink const& progress);
+Diagnosis diagnose_joint(DiagnosisInput const& input, StageSink const& progress, DecisionSink const& further = {});
 
 }  // namespace torquescope

@@ -44,8 +44,8 @@ Eigen::MatrixXd laws_of_the_joint_alone(Motion const& joint) {
 
 std::optional<NeighbourLoad> neighbour_load(Recording const& recording, RecordPipeline const& pipeline,
                                             ProcessedRecord const& rows) {
-  Eigen::VectorXd const& torque = rows.torque_itself();
-  Eigen::MatrixXd const& model = rows.columns_themselves();
+  Eigen::VectorXd const& torque = rows.torque;
+  Eigen::MatrixXd const& model = rows.columns;
   Eigen::Index const others = recording.other_positions.cols();
   if (others == 0 || torque.size() < fewest_rows) return std::nullopt;
 

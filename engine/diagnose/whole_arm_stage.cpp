@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/data/from_zero.hpp"
+#include "engine/diagnose/arms/arm_fit.hpp"
 #include "engine/diagnose/arms/rigid_columns.hpp"
-#include "engine/diagnose/arms/rigid_rows.hpp"
 #include "engine/infer/pipeline/held_torque.hpp"
-#include "engine/infer/validation/unseen_record.hpp"
 
 namespace torquescope {
 

@@ -100,8 +100,6 @@ void read_model(Experiment::Parts& parts, ModelOptions const& model, JobPlan& pl
       parts.regressor = make_regressor(model, section_or_empty(parts.job, "model"));
       parts.effects = chosen_effects(parts.diagnose, parts.regressor->joint(), model.terms, diagnose, problems);
     }
-    if (purpose == Experiment::Purpose::diagnose)
-      refuse_too_few_twins(parts.diagnose, parts.joints(), diagnose, problems);
     if (is_arm)
       refuse_rollouts_of_arm(parts, problems);
     else
@@ -133,6 +131,7 @@ JobPlan read_job_text(Experiment::Parts& parts, Experiment::Purpose purpose) {
   check_sources(job, plan.recording, purpose, problems);
   check_work(job, purpose, problems);
   parts.diagnose = read_options<DiagnoseOptions>(job, problems);
+  parts.levels = read_options<LevelOptions>(job, problems);
   parts.estimators = plan_estimators(job.all("estimator"), problems);
   read_model(parts, model, plan, purpose, problems);
   plan.simulates = job.find("simulate") != nullptr;

@@ -9,9 +9,9 @@
 #include "engine/effects/given_effect.hpp"
 #include "engine/effects/instant_code.hpp"
 #include "engine/effects/model_options.hpp"
-#include "engine/experiment/diagnose_options.hpp"
 #include "engine/experiment/estimator_plan.hpp"
 #include "engine/experiment/job/job_options.hpp"
+#include "engine/experiment/level_options.hpp"
 #include "engine/experiment/recording_set.hpp"
 #include "engine/fit/excite/excite_options.hpp"
 #include "engine/fit/optim/optimiser.hpp"
@@ -194,6 +194,7 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
        {"joint = 3, name = \"stribeck\", and its parameters: stribeck = 0.4, stribeck_speed = 0.1, ..."},
        {}});
   add_section<ExciteOptions>(entries);
+  add_section<LevelOptions>(entries);
   add_section<DiagnoseOptions>(entries);
   entries.back().text = {
       "CV gain, in the table of candidates: share of the mismatch (what the residual has beyond the replicates) that "

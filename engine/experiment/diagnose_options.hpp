@@ -20,25 +20,9 @@ struct DiagnoseOptions {
   double delta = 0.0025;
   double tolerance = 0.1;
   double least_fall = 0.05;
-  std::string shape_optimiser = "de";
-  std::string reversals = "both";
-  std::string decider = "auto";
-  // ablations (ablation.hpp)
-  std::string null = "twins";
-  bool indirect_inference = true;
-  double twin_noise = 1.0;
-  bool whitening = true;
-
-  // in the words of a job file, those that differ from the method: "null = \"iid\""; empty: it is whole
-  std::vector<std::string> ablations() const;
 
   static OptionTable<DiagnoseOptions> const& table();
 };
-
-// A name needs a p of at most q over the number of joints (Bonferroni), and replicates show none below 1 / (twins + 1):
-// with fewer of them no name could ever be given
-void refuse_too_few_twins(DiagnoseOptions const& options, std::size_t joints, Section const& section,
-                          std::vector<Problem>& problems);
 
 // the effects to look for: those named, in that order, or the whole catalogue as far as the joint can have it, without
 // the terms that the model has already. `section`: [diagnose], for the places in messages

@@ -31,41 +31,31 @@ std::string position_column(Job const& job) {
 
 // what a job asks of one joint and of an arm alike
 template <class Input>
-void ask(Experiment::Parts const& parts, int threads, TwinExchange* exchange, Input& input) {
-  auto const& options = parts.diagnose;
-  input.selection.q = options.q;
-  input.selection.max_effects = static_cast<std::size_t>(options.max_effects);
-  input.selection.shape_optimiser = options.shape_optimiser;
-  input.levels.delta = options.delta;
-  input.levels.tolerance = options.tolerance;
-  input.levels.least_fall = options.least_fall;
-  input.twins = static_cast<std::size_t>(options.twins);
+void ask(Experiment::Parts const& parts, int threads, Input& input) {
+  input.max_effects = static_cast<std::size_t>(parts.diagnose.max_effects);
+  input.numbers = decision_numbers(parts.diagnose, parts.levels);
   input.seed = static_cast<std::uint64_t>(parts.experiment.seed);
   input.threads = threads;
-  input.exchange = exchange;
-  input.reversals = reversals_of(options.reversals);
-  input.ablation = {null_of(options.null), options.indirect_inference, options.twin_noise, options.whitening};
 }
 
 }  // namespace
 
-JobInput::JobInput(Experiment::Parts const& parts, int threads, TwinExchange* exchange)
+JobInput::JobInput(Experiment::Parts const& parts, int threads)
     : filter_(section_or_empty(parts.job, "filter")),
       others_(other_recordings(parts)),
       input_{parts.train.recordings.front(), others_, *parts.regressor, parts.filter, filter_} {
-  ask(parts, threads, exchange, input_);
-  input_.selection.candidates = parts.effects;
+  ask(parts, threads, input_);
+  input_.candidates = parts.effects;
   std::vector<Problem> already_told;  // where the job was read
   input_.loop = read_options<LoopOptions>(parts.job, already_told);
   input_.joint_name = position_column(parts.job);
   input_.further_training = parts.train.recordings.size() - 1;
 }
 
-ArmDiagnosisInput arm_input(Experiment::Parts const& parts, Section const& filter, int threads,
-                            TwinExchange* exchange) {
+ArmDiagnosisInput arm_input(Experiment::Parts const& parts, Section const& filter, int threads) {
   auto const& arm = *parts.arm;
   ArmDiagnosisInput input{arm.model, arm.train, arm.validate, arm.effects, parts.filter, filter};
-  ask(parts, threads, exchange, input);
+  ask(parts, threads, input);
   return input;
 }
 

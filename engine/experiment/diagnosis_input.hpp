@@ -13,7 +13,7 @@ namespace torquescope {
 
 class JobInput {
  public:
-  JobInput(Experiment::Parts const& parts, int threads, TwinExchange* exchange = nullptr);
+  JobInput(Experiment::Parts const& parts, int threads);
   JobInput(JobInput const&) = delete;
   JobInput& operator=(JobInput const&) = delete;
 
@@ -26,7 +26,6 @@ class JobInput {
 };
 
 // the same of an arm; looks into `parts` alone
-ArmDiagnosisInput arm_input(Experiment::Parts const& parts, Section const& filter, int threads,
-                            TwinExchange* exchange = nullptr);
+ArmDiagnosisInput arm_input(Experiment::Parts const& parts, Section const& filter, int threads);
 
 }  // namespace torquescope

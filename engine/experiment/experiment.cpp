@@ -160,8 +160,8 @@ std::string Experiment::data_line() const {
 namespace {
 
 // empty for the whole method
-std::string ablation_words(DiagnoseOptions const& options) {
-  auto const ablations = options.ablations();
+std::string ablation_words(LevelOptions const& options) {
+  auto const ablations = options.changed();
   if (ablations.empty()) return {};
   return fmt::format("an ablation ({}): it shows what a part of the method brings; believe no name it gives",
                      fmt::join(ablations, ", "));
@@ -200,7 +200,7 @@ std::vector<std::string> Experiment::warnings() const {
   if (parts_->validate) add(*parts_->validate);
   if (asks_for_values() && !parts_->health.words.empty()) lines.push_back("regressor: " + parts_->health.words);
   if (std::string const words = filter_warning(); !words.empty()) lines.push_back("filter: " + words);
-  if (std::string const words = ablation_words(parts_->diagnose); !words.empty()) lines.push_back("diagnose: " + words);
+  if (std::string const words = ablation_words(parts_->levels); !words.empty()) lines.push_back("diagnose: " + words);
   return lines;
 }
 
@@ -323,7 +323,7 @@ std::vector<CheckLine> Experiment::check(int threads) const {
     lines.push_back({Level::ok, "diagnosis", estimate_words(size, estimate_diagnosis(size, threads))});
     if (auto const fewer = decimation_proposal(*parts_, threads)) lines.push_back({Level::note, "diagnosis", *fewer});
   }
-  if (std::string const words = ablation_words(parts_->diagnose); !words.empty())
+  if (std::string const words = ablation_words(parts_->levels); !words.empty())
     lines.push_back({Level::warn, "diagnosis", words});
   if (parts_->estimators.empty()) return lines;
   double evaluations = 0.0, bytes = 0.0;

@@ -18,11 +18,11 @@
 #include "engine/diagnose/arms/torque_delay.hpp"
 #include "engine/effects/model_options.hpp"
 #include "engine/effects/regressor.hpp"
-#include "engine/experiment/diagnose_options.hpp"
 #include "engine/experiment/estimator_plan.hpp"
 #include "engine/experiment/experiment.hpp"
 #include "engine/experiment/job/job.hpp"
 #include "engine/experiment/job/job_options.hpp"
+#include "engine/experiment/level_options.hpp"
 #include "engine/experiment/rollout_parts.hpp"
 #include "engine/fit/optim/objective.hpp"
 #include "engine/fit/problem/arm_model.hpp"
@@ -87,6 +87,7 @@ struct Experiment::Parts {
   std::optional<SufficientStatistics> statistics;        // of the training rows, when an estimator would use them
   std::optional<SinglePrecisionCheck> single_precision;  // when an estimator wants float32
   DiagnoseOptions diagnose;
+  LevelOptions levels;
   std::vector<Effect const*> effects;  // a diagnosis looks for
   // where an estimator simulates the recordings, or a replay does
   std::optional<RolloutParts> rollout{};

@@ -29,6 +29,7 @@ std::vector<std::string> const& known_sections() {
                                               "simulate.effects",
                                               "excite",
                                               "diagnose",
+                                              "diagnose.levels",
                                               "output"};
   return names;
 }

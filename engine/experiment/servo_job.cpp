@@ -63,8 +63,7 @@ std::string ServoJob::inputs_sha256() const {
 
 ServoQuestion ServoJob::question(int threads) const {
   ServoQuestion question{*regressor, loop, command, training, validation};
-  question.numbers.alpha = diagnose.q;
-  question.numbers.least_fall = diagnose.least_fall;
+  question.numbers = decision_numbers(diagnose, levels);
   question.laws = laws;
   question.most_laws = static_cast<std::size_t>(diagnose.max_effects);
   question.seed = static_cast<std::uint64_t>(experiment.seed);
@@ -99,6 +98,7 @@ ServoJob read_servo_job(Job job) {
   if (made.experiment.name.empty()) made.experiment.name = job.path.stem().string();
   made.output = read_options<OutputOptions>(job, problems);
   made.diagnose = read_options<DiagnoseOptions>(job, problems);
+  made.levels = read_options<LevelOptions>(job, problems);
   auto const recording = read_options<RecordingOptions>(job, problems);
   made.known = known_keys(job);
   LoopOptions loop = servo_loop(job, problems);

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/experiment/diagnose_options.hpp"
 #include "engine/experiment/job/job.hpp"
 #include "engine/experiment/job/job_options.hpp"
+#include "engine/experiment/level_options.hpp"
 #include "engine/experiment/recording_set.hpp"
 #include "engine/infer/all_rows/servo_decision.hpp"
 #include "engine/simulate/rollout/loop_options.hpp"
@@ -24,6 +24,7 @@ struct ServoJob {
   ExperimentOptions experiment{};
   OutputOptions output{};
   DiagnoseOptions diagnose{};
+  LevelOptions levels{};
   LoopSetting loop{};
   DriveCommand command = DriveCommand::voltage;
   std::optional<Regressor> regressor{};

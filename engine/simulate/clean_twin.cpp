@@ -79,19 +79,6 @@ std::size_t steps_held(LaneJoint const& joint, double step_s, std::size_t steps_
 
 }  // namespace
 
-TwinLoop noiseless(TwinLoop loop) {
-  loop.encoder_step = 0.0;
-  loop.torque_noise = white(0.0);
-  loop.slow_torque_noise = white(0.0);
-  loop.disturbance_std = 0.0;
-  loop.disturbance_variance_error = 0.0;
-  loop.position_noise_std = 0.0;
-  loop.friction_wander = 0.0;
-  loop.friction_wander_variance_error = 0.0;
-  loop.sticking = {};
-  return loop;
-}
-
 CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double step_s)
     : joint_(std::move(joint)), loop_(std::move(loop)), track_(std::move(track)), asked_step_s_(step_s) {
   Eigen::Index const n = track_.reference.size();

@@ -45,9 +45,6 @@ struct TwinLoop {
   bool sees_motion = false;  // the law answers the position itself, before the encoder's steps
 };
 
-// the same law with nothing random about it
-TwinLoop noiseless(TwinLoop loop);
-
 // what the recording prescribes
 struct TwinTrack {
   double rate_hz = 0.0;

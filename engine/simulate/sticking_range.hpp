@@ -17,7 +17,4 @@ struct StickingRange {
   bool is_any() const { return most_creep > 0.0 || most_length > 0.0; }  // none: friction holds at once
 };
 
-// encoder_step: rad or m; 0: exact
-StickingRange sticking_range(double encoder_step);
-
 }  // namespace torquescope

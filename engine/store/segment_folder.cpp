@@ -17,7 +17,6 @@
 #include "engine/base/error.hpp"
 #include "engine/store/disk_failure.hpp"
 #include "engine/store/file_seal.hpp"
-#include "engine/store/number_file.hpp"
 #include "engine/store/own_folder.hpp"
 #include "engine/store/result_files.hpp"
 #include "engine/store/shard_lock.hpp"
@@ -55,8 +54,6 @@ std::string finished_name_of(std::string const& name) {
 }
 
 bool is_segment(std::string const& name) { return name.ends_with(".h5"); }
-bool is_twins(std::string const& name) { return name.ends_with(".twins"); }
-bool is_kept_work(std::string const& name) { return is_segment(name) || is_twins(name); }
 
 // closed when it ends
 class KeptFile {
@@ -75,9 +72,7 @@ class KeptFile {
   // a TempFile, and whoever holds a lock, holds it while its process lives
   bool has_a_writer() const { return ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0; }
   bool is_a_lock() const { return is_lock_file(descriptor_); }
-  std::optional<Sha256> job(std::string const& name) const {
-    return is_segment(name) ? sealed_identity(descriptor_) : number_file_identity(descriptor_);
-  }
+  std::optional<Sha256> job() const { return sealed_identity(descriptor_); }
 
  private:
   int descriptor_;
@@ -88,16 +83,14 @@ constexpr int only_look = O_RDONLY | O_NONBLOCK;
 // by what stands in the file: names prove nothing
 bool is_of_job(OwnFolder const& folder, std::string const& name, Sha256 const& job) {
   KeptFile const file(folder.open(name, only_look));
-  return job != Sha256{} && file.is_regular() && file.job(name) == job;
+  return job != Sha256{} && file.is_regular() && file.job() == job;
 }
 
 // nobody reads what a dead process was still writing, nor a lock that nobody holds
 bool is_abandoned(OwnFolder const& folder, std::string const& name) {
-  bool const is_lock =
-      name.ends_with(".lock") && (name.starts_with("shard-") || is_twins(name.substr(0, name.size() - 5)));
+  bool const is_lock = name.ends_with(".lock") && name.starts_with("shard-");
   std::string const finished = finished_name_of(name);
-  bool const is_unfinished =
-      is_kept_work(finished) && (finished.starts_with("shard-") || finished.starts_with("batch-"));
+  bool const is_unfinished = is_segment(finished) && finished.starts_with("shard-");
   if (!is_lock && !is_unfinished) return false;
   KeptFile const file(folder.open(name, only_look));
   return file.is_regular() && !file.has_a_writer() && (!is_lock || file.is_a_lock());
@@ -154,13 +147,6 @@ std::vector<FilePlace> segments_in(OpenFolder const& folder) {
   return segments;
 }
 
-std::size_t twin_parts_in(fs::path const& folder) {
-  std::error_code ignored;
-  auto const names = files_in(folder, ignored);
-  return static_cast<std::size_t>(
-      std::count_if(names.begin(), names.end(), [](fs::path const& name) { return name.extension() == ".twins"; }));
-}
-
 std::vector<std::string> remove_segments(fs::path const& result, std::string const& inputs_sha256) {
   remove_unfinished(result);
   std::vector<std::string> left;
@@ -169,10 +155,10 @@ std::vector<std::string> remove_segments(fs::path const& result, std::string con
     OwnFolder const folder(path);
     Sha256 const job = job_identity(inputs_sha256, Keeps::work);
     for (auto const& name : folder.names()) {
-      bool const is_ours = is_kept_work(name) ? is_of_job(folder, name, job) : is_abandoned(folder, name);
+      bool const is_ours = is_segment(name) ? is_of_job(folder, name, job) : is_abandoned(folder, name);
       if (is_ours)
         folder.unlink(name);
-      else if (is_kept_work(name))
+      else if (is_segment(name))
         left.push_back(name);
     }
   } catch (Error const& refused) {

@@ -7,7 +7,7 @@
 //            twice)
 // Segments   complete HDF5 files written by ResultWriter: temp file, fsync, rename, fsync of the folder. Never changed.
 // Trust      the folder is ours, or refused (own_folder.hpp); a file in it is removed when it says that it is of this
-//            job (file_seal.hpp, number_file.hpp), never because of its name
+//            job (file_seal.hpp), never because of its name
 // Errors     74 when the folder cannot be made or listed; 73 when it is refused; removal never fails loudly
 // Threads    free functions
 
@@ -62,10 +62,7 @@ class SegmentNames {
 // finished segments, sorted by name, to be read while the folder is open; none when there is no folder
 std::vector<FilePlace> segments_in(OpenFolder const& folder);
 
-// how many parts of a diagnosis's twins are there (engine/workflows/twin_folder.hpp)
-std::size_t twin_parts_in(std::filesystem::path const& folder);
-
-// once the result is whole: the segments and twins of this job, what killed processes left of unfinished ones, and the
+// once the result is whole: the segments of this job, what killed processes left of unfinished ones, and the
 // folder unless it holds something else; and what killed processes left of the result itself. A file that a living
 // process writes stays. Returns warnings: what was left, and why
 std::vector<std::string> remove_segments(std::filesystem::path const& result, std::string const& inputs_sha256);

@@ -24,6 +24,8 @@ Diagnosis diagnose_into_file(Experiment const& experiment, DiagnoseRequest const
   write_diagnosis(writer, diagnosis);
   for (auto const& [key, value] : DiagnoseOptions::table().values(parts.diagnose))
     writer.attribute("/diagnosis/options", key, value);
+  for (auto const& [key, value] : LevelOptions::table().values(parts.levels))
+    writer.attribute("/diagnosis/options/levels", key, value);
   if (auto const replay = replay_of_diagnosis(parts, diagnosis, request.threads.count)) write_replay(writer, *replay);
   finish_result(writer, request.output, request.threads, beginning);
   return diagnosis;

@@ -80,14 +80,11 @@ struct DiagnoseRequest {
   std::function<bool()> stop_requested{};  // asked from any thread, between replicates and effects; true: Error 75
   std::function<void(std::string const& topic, std::string const& text)> tell{};  // "warning"
   bool allow_full_disk = false;   // begin although the result does not seem to fit
-  ShardChoice shard{};            // of the replicates; every shard makes the whole result
   double expected_seconds = 0.0;  // of the estimate, for progress; 0: none
 };
 
 // Finds the physics that the job's model lacks and writes the result file; stages "replicates", "search",
-// "verify". With several shards replicates are exchanged in OUTPUT.parts (twin_folder.hpp), which goes when the result
-// stands. Error 74 when there is no room for the result; 73 when a living process is at this shard; 75 too when
-// another shard has published the result
+// "verify". Error 74 when there is no room for the result; 73 when a living process is at it; 75 when it was stopped
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress);
 
 // writes the columns that every effect of the catalogue has on the job's recordings (column_export.hpp), for methods

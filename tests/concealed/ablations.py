@@ -36,6 +36,15 @@ def with_key(key, value):
     return edit
 
 
+def with_level(key, value):
+    """-> an edit that sets a number of the decision, [diagnose.levels] key = value."""
+    def edit(job):
+        if "[diagnose]\n" not in job:
+            raise ValueError("the job has no section [diagnose]")
+        return f"{job.rstrip()}\n\n[diagnose.levels]\n{key} = {value}\n"
+    return edit
+
+
 def without_reference(job):
     """No reference in the recording's columns: the loop cannot be identified, twins track the measured motion."""
     key = r'reference *= *"[^"]*"'
@@ -47,14 +56,16 @@ def without_reference(job):
 
 # a name, and what it does to the job
 ABLATIONS = {
-    "null_iid": with_key("null", '"iid"'),
-    "null_hac": with_key("null", '"hac"'),
-    "null_surrogate": with_key("null", '"surrogate"'),
-    "no_indirect_inference": with_key("indirect_inference", "false"),
+    "no_delay": with_level("longest_delay", "0"),
+    "one_sticking": with_level("sticking_odds", "1"),
+    "any_size": with_key("delta", "0"),
+    "any_fall": with_key("least_fall", "0"),
+    "any_power": with_key("tolerance", "1"),
+    "one_refined": with_level("refined", "1"),
+    "no_early_end": with_level("exceedances", "1000"),
+    "own_columns": with_level("same_columns", "0"),
+    "beam_of_one": with_level("beam", "1"),
     "controller_unknown": without_reference,
-    "noise_half": with_key("twin_noise", "0.5"),
-    "noise_double": with_key("twin_noise", "2"),
-    "no_whitening": with_key("whitening", "false"),
 }
 
 

@@ -85,10 +85,9 @@ class Suite:
             (folder / file).unlink(missing_ok=True)
             os.link(self.out / "sealed" / name / file, folder / file)
         if self.twins:
-            smaller = f'twins = {self.twins}\ndecider = "moving_rows"'
             text = (folder / "job.toml").read_text()
             (folder / "job.toml").unlink()  # what is sealed stays as it is
-            (folder / "job.toml").write_text(re.sub(r"(?m)^twins = .*", smaller, text))
+            (folder / "job.toml").write_text(re.sub(r"(?m)^twins = .*", f"twins = {self.twins}", text))
         self.note(name, plant=self.plant, seal=seal[0], made_s=round(time.monotonic() - began, 2))
         return seal[0]
 

@@ -3,7 +3,7 @@ scored by itself.
 
     test_ablations.py MAKE_CASE
 
-The stand-in invents an effect where the job has another null than the twins, and says "none" otherwise.
+The stand-in invents an effect where the job allows no delay, and says "none" otherwise.
 """
 
 import contextlib
@@ -26,7 +26,8 @@ job = tomllib.load(open("job.toml", "rb"))
 with open("{calls}", "a") as calls:
     train = hashlib.sha256(open("train.csv", "rb").read()).hexdigest()
     calls.write(json.dumps([job, train, sorted(os.listdir("."))]) + "\\n")
-effects = [{{"name": "spring", "family": "static_position"}}] if "null" in job["diagnose"] else []
+no_delay = "longest_delay" in job["diagnose"].get("levels", {{}})
+effects = [{{"name": "spring", "family": "static_position"}}] if no_delay else []
 joint = {{"joint": 1, "effects": effects, "baseline": {{"validation_relerr": 0.1}}}}
 json.dump({{"schema": 1, "verdict": "named" if effects else "none", "joints": [joint]}}, open(sys.argv[4], "w"))
 """
@@ -64,7 +65,9 @@ class Edits(unittest.TestCase):
         with self.assertRaises(ValueError):
             ablations.without_reference(ablations.without_reference(JOB))
         with self.assertRaises(ValueError):
-            ablations.with_key("null", '"iid"')("[recording]\n")
+            ablations.with_key("delta", "0")("[recording]\n")
+        with self.assertRaises(ValueError):
+            ablations.with_level("beam", "1")("[recording]\n")
 
 
 class Runner(unittest.TestCase):
@@ -87,36 +90,36 @@ class Runner(unittest.TestCase):
         return [json.loads(line) for line in self.calls.read_text().splitlines()]
 
     def test_runs_each_on_the_same_recordings_and_scores_each(self):
-        code, text, error = self.run_ablations("--drawn", "T0:3", "--only", "null_hac,noise_half")
+        code, text, error = self.run_ablations("--drawn", "T0:3", "--only", "no_delay,beam_of_one")
         self.assertEqual(code, 0, text + error)
-        (whole, first), (hac, second), (half, third) = [
+        (whole, first), (free, second), (greedy, third) = [
             (job["diagnose"], recording) for job, recording, _ in self.called()
         ]
         self.assertEqual({first}, {second, third})
-        self.assertNotIn("null", whole)
-        self.assertEqual((hac["null"], half["twin_noise"]), ("hac", 0.5))
+        self.assertNotIn("levels", whole)
+        self.assertEqual((free["levels"], greedy["levels"]), ({"longest_delay": 0}, {"beam": 1}))
         for _, _, seen in self.called():
             self.assertEqual(seen, ["job.toml", "train.csv", "validate.csv"])
         board = json.loads((self.out / "ablations" / "board.json").read_text())
         invented = {name: row["clean: any false name"] for name, row in board.items()}
-        self.assertEqual(invented, {"torquescope": [0, 1], "null_hac": [1, 1], "noise_half": [0, 1]})
-        self.assertEqual(board["null_hac"]["false share of names"], 1.0)
+        self.assertEqual(invented, {"torquescope": [0, 1], "no_delay": [1, 1], "beam_of_one": [0, 1]})
+        self.assertEqual(board["no_delay"]["false share of names"], 1.0)
         self.assertIsNone(board["torquescope"]["false share of names"])
-        self.assertIn("null_hac", text)
+        self.assertIn("no_delay", text)
         # where the scorer looks for other methods
-        published = json.loads(next((self.out / "rivals" / "ablation_null_hac").iterdir()).read_text())
+        published = json.loads(next((self.out / "rivals" / "ablation_no_delay").iterdir()).read_text())
         self.assertEqual(published["verdict"], "named")
         self.assertGreaterEqual(published["seconds"], 0.0)
 
-        self.run_ablations("--drawn", "T0:3", "--only", "null_hac,noise_half")
+        self.run_ablations("--drawn", "T0:3", "--only", "no_delay,beam_of_one")
         self.assertEqual(len(self.called()), 3)
-        self.run_ablations("--drawn", "T0:3", "--only", "noise_double")
+        self.run_ablations("--drawn", "T0:3", "--only", "one_refined")
         self.assertEqual(len(self.called()), 4)
 
     def test_words_it_does_not_understand(self):
         code, _, error = self.run_ablations("--drawn", "T0:3", "--only", "no_twins")
         self.assertEqual(code, 64)
-        self.assertIn("null_iid", error)
+        self.assertIn("one_sticking", error)
 
 
 if __name__ == "__main__":

@@ -20,9 +20,9 @@ import unittest
 import private_slurm
 import shimmed
 import study
-import twins
 
 KILLS = int(os.environ.get("TORQUESCOPE_FAULTS", "60")) // 10
+DIAGNOSIS = study.simulated_job.job(simulate={"duration_s": 6}, diagnose={"twins": 20, "effects": ["stribeck"]})
 SHARDS = 4
 SLOWER = int(os.environ.get("TORQUESCOPE_TIMES_AS_LONG", "1"))
 MOST_SECONDS = 150 * SLOWER
@@ -126,16 +126,17 @@ class OnSlurm(study.FaultTest):
         told = self.slurm.said("scontrol", "show", "job", "-o")
         self.assertEqual(told.count("Comment=two words"), 3, told)
 
-    def test_a_diagnosis_is_an_array_without_a_merge(self):
-        folder = self.folder(twins.JOB)
+    def test_a_diagnosis_is_one_task_without_a_merge(self):
+        folder = self.folder(DIAGNOSIS)
         words = self.submit_words(folder, "job.toml", "r.h5")
-        self.assertIn("2 shards of the diagnosis as job", words)
+        self.assertIn("the diagnosis as job", words)
         self.finished(folder, "r.h5")
         self.assertFalse(os.path.exists(folder / "r.h5.merge.sbatch"))
-        logs = " ".join(self.logs(folder).split())
-        self.assertIn("0/2 (--shard): replicates are shared in r.h5.parts", logs)
-        self.assertIn("1/2 (--shard): replicates are shared in r.h5.parts", logs)
-        self.assertFalse(os.path.exists(folder / "r.h5.parts"), logs)
+        self.assertFalse(os.path.exists(folder / "r.h5.parts"), self.logs(folder))
+        other = folder.run("diagnose", "job.toml", "--out", "other.h5", "--shard", "1/2")
+        self.assert_ended(other, 0)
+        self.assertIn("a diagnosis is not divided", other.said)
+        self.assertFalse(os.path.exists(folder / "other.h5"))
 
     def test_what_sbatch_says_is_said_as_it_said_it(self):
         folder = self.folder(shimmed.JOB)

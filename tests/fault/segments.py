@@ -164,7 +164,7 @@ class Segments(study.FaultTest):
         """A link of the folder's name to a folder of somebody else's files, and such files in the folder itself."""
         folder, other = self.folder(), self.folder(study.JOB.replace("seed = 7", "seed = 8"))
         os.mkdir(folder / "scratch")
-        foreign = {"notmine.h5": b"my own words", "notmine.twins": b"my own words", "notes.h5.tmp.12": b"unfinished"}
+        foreign = {"notmine.h5": b"my own words", "notes.h5.tmp.12": b"unfinished"}
         with open(self.whole / "r.h5", "rb") as file:  # the same job's result, and another job's segments
             foreign["whole.h5"] = file.read()
         self.assert_ended(other.run("run", "job.toml", "--out", "r.h5", "--shard", "0/2"), 0)

@@ -54,7 +54,6 @@ name = "ols"
 [diagnose]
 twins = 60
 effects = ["spring"]
-decider = "{decider}"
 """
 OTHER_UNIT = re.compile(r"(?<!not )N\s?m\b(?! per)|\bkg\b|\d N\b|N·m")
 
@@ -122,9 +121,9 @@ class Units(unittest.TestCase):
             file.visititems(add)
         return [text for text in found if not text.startswith(("job", "provenance"))]
 
-    def everything_about(self, unit, factor="", decider="moving_rows"):
+    def everything_about(self, unit, factor=""):
         self.record(unit)
-        (self.folder / "job.toml").write_text(JOB.format(unit=unit, factor=factor, decider=decider))
+        (self.folder / "job.toml").write_text(JOB.format(unit=unit, factor=factor))
         said = {"run": self.run_program("run", "job.toml", "--out", "run.h5"),
                 "replay": self.run_program("replay", "run.h5"),
                 "diagnose": self.run_program("diagnose", "job.toml", "--out", "found.h5", "--all", "--json",
@@ -146,8 +145,8 @@ class Units(unittest.TestCase):
         self.assertRegex(said["run"], r"coulomb\s+mA\s")
         self.assertRegex(said["diagnose"], r"\d mA")
 
-    def test_of_a_voltage_that_is_kept_as_it_is_with_all_rows(self):
-        said = self.everything_about("V", "torque_per_unit = 1", "all_rows")
+    def test_of_a_voltage_that_is_kept_as_it_is(self):
+        said = self.everything_about("V", "torque_per_unit = 1")
         for where, text in said.items():
             self.assert_own_unit(text, where)
         self.assertRegex(said["run"], r"coulomb\s+V\s")
@@ -155,8 +154,7 @@ class Units(unittest.TestCase):
 
     def test_a_known_factor_makes_newton_metres(self):
         self.record("mA")
-        (self.folder / "job.toml").write_text(JOB.format(unit="mA", factor="torque_per_unit = 0.0042",
-                                                            decider="moving_rows"))
+        (self.folder / "job.toml").write_text(JOB.format(unit="mA", factor="torque_per_unit = 0.0042"))
         self.assertRegex(self.run_program("run", "job.toml", "--out", "run.h5"), r"inertia\s+kg m2")
 
 

@@ -4,7 +4,7 @@
     run.py TORQUESCOPE --seed S --clean N --single N [--plant MAKE_STICKING_CASE] [--jobs J] [--set KEY=VALUE ...]
            [--keep DIR]
 
---set    a line of the job's [diagnose], in TOML: --set twins=200 --set 'reversals="weigh"'
+--set    a line of the job's [diagnose], in TOML: --set twins=200 --set 'q=0.02'
 --keep   cases and verdicts stay in DIR; those of DIR that have a verdict are not diagnosed again
 --plant  by default the one that was built beside TORQUESCOPE
 One line a case and the counts are printed; README.md says what the grades mean.

@@ -76,8 +76,8 @@ class Grades(unittest.TestCase):
 class Settings(unittest.TestCase):
     def test_lines_are_replaced_or_added(self):
         job = "[model]\nterms = []\n\n[diagnose]\ntwins = 60\n"
-        self.assertEqual(with_settings(job, ["twins=200", 'reversals="weigh"']),
-                         '[model]\nterms = []\n\n[diagnose]\ntwins = 200\nreversals = "weigh"\n')
+        self.assertEqual(with_settings(job, ["twins=200", "q=0.02"]),
+                         '[model]\nterms = []\n\n[diagnose]\ntwins = 200\nq = 0.02\n')
         self.assertEqual(with_settings(job, []), job)
 
 

@@ -25,7 +25,7 @@ KEYS = re.compile(r"list laws|effects, laws|"
 # of effects: their own sentences may speak of a law of nature by its name
 NAMED_LAWS = re.compile(r"(?:Ohm|Coulomb|Stribeck|Hooke|Newton)'s law|[Pp]ower law")
 DOCUMENTS = ("README.md", "CHANGELOG.md", "jobs/README.md", "engine/diagnose/METHOD.md",
-             "engine/infer/all_rows/THEORY.md", "engine/infer/moving_rows/THEORY.md", "engine/store/RESULT_FORMAT.md",
+             "engine/infer/all_rows/THEORY.md", "engine/store/RESULT_FORMAT.md",
              "engine/data/health/README.md", "engine/effects/README.md", "scripts/report/torquescope/README.md",
              "bench/README.md")
 C_TEXT = re.compile(r'"(?:[^"\\\n]|\\.)*"')

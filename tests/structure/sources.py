@@ -23,8 +23,7 @@ EXAMPLES = {"effects/effects/eddy_brake.cpp", "optim/optimisers/random_search.cp
 
 DOCUMENT = re.compile(r"(?<![\w*{}$])(?:\.{1,2}/|[\w.-]+/)*[\w-]+\.md\b")
 SECTION = re.compile(r"\b(METHOD|THEORY)\.md, ([A-Z][\w ,'-]*)")
-THEORY = "engine/infer/moving_rows/THEORY.md"  # what is longer than a comment about a decision
-ALL_SAMPLES = "engine/infer/all_rows/THEORY.md"  # the same of the decision on all samples
+THEORY = "engine/infer/all_rows/THEORY.md"  # what is longer than a comment about a decision
 PRIVATE = re.compile(r"\b(?:LESSONS|PHYSICS|DESIGN|UX|FADE|STYLE|EVIDENCE)(?:\.md)? (?:items?|sections?) "
                      r"|\bour own prototype\b")
 FAILS = re.compile(r"^\s*(?://|#) fails:", re.MULTILINE)
@@ -90,7 +89,7 @@ def unknown_sections(text, headings):
 def complaints(name, text, documents, headings):
     """What is wrong with one source file of the tree."""
     found = [f"{name}: names {one}, which is not in the tree" for one in absent_documents(text, documents)]
-    found += [f"{name}: {METHOD}, {THEORY} and {ALL_SAMPLES} have no section \"{one}\""
+    found += [f"{name}: {METHOD} and {THEORY} have no section \"{one}\""
               for one in unknown_sections(text, headings)]
     found += [f"{name}: \"{one.strip()}\" is not in the tree" for one in PRIVATE.findall(as_prose(text))]
     if FAILS.search(text):
@@ -133,9 +132,9 @@ def main(root):
     names = tracked(root)
     assert len(names) > 500, "too few files: is this the source tree?"
     documents = [name for name in names if name.endswith(".md")]
-    headings = [one for page in (METHOD, THEORY, ALL_SAMPLES)
+    headings = [one for page in (METHOD, THEORY)
                 for one in re.findall(r"^#+ (.+)$", (root / page).read_text(), re.MULTILINE)]
-    for name in ("engine/README.md", METHOD, THEORY, ALL_SAMPLES):
+    for name in ("engine/README.md", METHOD, THEORY):
         absent = set(absent_sources((root / name).read_text(), names)) - EXAMPLES
         found += [f"{name}: names {one}, which is not in the tree" for one in sorted(absent)]
     for name in names:

@@ -55,10 +55,6 @@ ExitCode code_of(DiagnoseArguments const& arguments, Diagnosis const& diagnosis)
 constexpr StopWords words_of_one{
     "stopping after the running step of the search",
     "stopped in the middle of a step that takes long: nothing was written, the same command begins anew"};
-constexpr StopWords words_of_shard{
-    "stopping after the running step of the search",
-    "stopped in the middle of a step that takes long: the same command goes on with the replicates that are safe"};
-
 void print_baseline(Session const& session, Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
     if (joint.baseline.empty()) continue;  // given up before it was fitted: the verdict says why
@@ -191,10 +187,15 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
     return problem;
   });
   PhaseTimes phases(progress_settings(session).clock);
-  ShardChoice const shard = choose_shard(arguments.shard, environment);
+  // one process makes a diagnosis; others of a job array that was written for several have nothing to do
+  if (ShardChoice const shard = choose_shard(arguments.shard, [](char const*) { return std::string(); });
+      shard.index > 0) {
+    session.note(session.topic_line("shard", fmt::format("{}/{}: a diagnosis is not divided, --shard 0/{} makes it",
+                                                         shard.index, shard.count, shard.count)));
+    return ExitCode::ok;
+  }
   // also while the recordings are read
-  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken,
-                       shard.count > 1 ? words_of_shard : words_of_one);
+  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken, words_of_one);
   Experiment const experiment = load_with_bar(session, arguments.job, Experiment::Purpose::diagnose);
   if (!arguments.columns.empty()) return write_columns(arguments, experiment, session);
   std::filesystem::path const output =
@@ -217,7 +218,6 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
     session.note(session.topic_line(topic, text));
   };
   request.allow_full_disk = arguments.allow_full_disk;
-  request.shard = shard;
   note_start(session, experiment.diagnose_line(), experiment, request.threads);
   DiagnosisSize const size = diagnosis_size(experiment.parts());
   DiagnosisEstimate const estimate = estimate_diagnosis(size, request.threads.count);
@@ -225,22 +225,13 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   session.note(session.topic_line("size", estimate_words(size, estimate)));
   if (auto const fewer = decimation_proposal(experiment.parts(), request.threads.count))
     session.note(session.topic_line("warning", *fewer));
-  if (shard.count > 1)
-    session.note(session.topic_line(
-        "shard", fmt::format("{}/{} ({}): replicates are shared in {}; --shard 0/1 makes all of them here", shard.index,
-                             shard.count, shard.reason, segment_folder_of(output).string())));
-  Diagnosis diagnosis;
-  try {
+  Diagnosis const diagnosis = [&] {
     SessionProgress print_progress(session);
-    diagnosis = diagnose_work(experiment, request, [&](ProgressUpdate const& update) {
+    return diagnose_work(experiment, request, [&](ProgressUpdate const& update) {
       phases.note(update);
       print_progress(update);
     });
-  } catch (Error const&) {
-    if (shard.count < 2 || !already_complete(output, experiment.inputs_sha256(), ResultKind::diagnosis)) throw;
-    session.note(session.topic_line("done", "another shard was first: its result is ours"));
-    return print_kept(arguments, session, output, experiment.inputs_sha256());
-  }
+  }();
   print_baseline(session, diagnosis);
   print_stages(session, phases.finish());
   print_diagnosis(session, diagnosis, diagnosis_json(diagnosis), arguments.all);
@@ -259,7 +250,7 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
   command->footer(
       "  torquescope diagnose jobs/lab_joint_3.toml\n"
       "  torquescope diagnose jobs/servo_loads.toml --leave-out mass_kg\n"
-      "  for i in 0 1; do torquescope diagnose lab.toml --shard $i/2 & done; wait\n");
+      "  torquescope diagnose lab.toml --columns columns.h5\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope describe diagnose)")->required();
   add_result_option(*command, arguments->out);
   add_json_option(*command, chosen);
@@ -272,9 +263,7 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
       ->type_name("C.h5")
       ->group("results");
   command
-      ->add_option("--shard", arguments->shard,
-                   "one of N processes that share the replicates of this diagnosis; killed? the same command goes on "
-                   "[SLURM_ARRAY_TASK_ID, SLURM_PROCID, OMPI_COMM_WORLD_RANK; 0/1 for a diagnosis of its own]")
+      ->add_option("--shard", arguments->shard, "a diagnosis is not divided: 0/N makes it, of others nothing is asked")
       ->type_name("I/N")
       ->check(no_shard)
       ->group("machine");

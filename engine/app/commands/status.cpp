@@ -127,24 +127,18 @@ std::string standing_line(DiagnosisStanding const& one) {
   return line;
 }
 
-std::string diagnosis_status_text(std::vector<DiagnosisStanding> const& standings, std::size_t parts,
-                                  fs::path const& result, Ink const& ink) {
+std::string diagnosis_status_text(std::vector<DiagnosisStanding> const& standings, fs::path const& result,
+                                  Ink const& ink) {
   std::string const name = ink.name(printable(result.string()));
   std::string text = fmt::format("{} is not finished: a diagnosis{}\n", name,
                                  standings.empty() ? "" : ", job " + printable(standings.front().job));
   for (auto const& one : standings) text += hanging("  ", standing_line(one));
-  if (parts > 0)
-    text += fmt::format("  {} parts of its replicates are safe in {}\n", parts,
-                        printable(segment_folder_of(result).string()));
   bool const is_dead = std::none_of(standings.begin(), standings.end(), [](auto const& one) { return one.is_alive; });
-  if (is_dead)
-    text += fmt::format("  no process of this host is at it; the same command {}\n",
-                        parts > 0 ? "goes on with the replicates that are safe" : "begins anew");
+  if (is_dead) text += "  no process of this host is at it; the same command begins anew\n";
   return text;
 }
 
-std::string diagnosis_status_json(std::vector<DiagnosisStanding> const& standings, std::size_t parts,
-                                  fs::path const& result) {
+std::string diagnosis_status_json(std::vector<DiagnosisStanding> const& standings, fs::path const& result) {
   Json processes = Json::array();
   for (auto const& one : standings)
     processes.push_back({{"shard", one.shard},
@@ -164,7 +158,6 @@ std::string diagnosis_status_json(std::vector<DiagnosisStanding> const& standing
                          {"complete", false},
                          {"kind", "diagnosis"},
                          {"job", {{"name", standings.empty() ? "" : standings.front().job}}},
-                         {"twin_parts", parts},
                          {"processes", processes}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -205,9 +198,9 @@ ExitCode show_status(std::string const& name, Session const& session) {
     }
   }
   auto const standings = standings_in(folder);
-  if (std::size_t const parts = twin_parts_in(folder); parts > 0 || !standings.empty()) {
-    session.result(diagnosis_status_text(standings, parts, result, session.result_ink()));
-    session.document(diagnosis_status_json(standings, parts, result));
+  if (!standings.empty()) {
+    session.result(diagnosis_status_text(standings, result, session.result_ink()));
+    session.document(diagnosis_status_json(standings, result));
     return ExitCode::ok;
   }
   JobStatus const status = has_segments ? read_status(folder) : JobStatus{};

@@ -131,7 +131,7 @@ void queue(SlurmPlan const& plan, SubmitArguments const& arguments, std::string 
   std::string const array = first.number();
   if (array.empty()) throw not_submitted("sbatch did not take the job: its own words stand above", see);
   if (plan.diagnoses) {
-    session.note(session.topic_line("queued", fmt::format("{} shards of the diagnosis as job {}", plan.shards, array)));
+    session.note(session.topic_line("queued", fmt::format("the diagnosis as job {}", array)));
   } else {
     auto const words = sbatch_words(arguments.sbatch_options, {"--dependency=afterok:" + array}, merge_name);
     std::string const merge = Sbatch(words).number();
@@ -163,7 +163,7 @@ ExitCode submit_job(SubmitArguments const& arguments, Session const& session) {
   plan.job = arguments.job;
   plan.result = result.string();
   plan.name = experiment.name();
-  plan.shards = arguments.shards;
+  plan.shards = plan.diagnoses ? 1 : arguments.shards;  // a diagnosis is not divided
   plan.threads = std::max(1, arguments.threads);
   plan.time = arguments.time;
   plan.partition = arguments.partition;

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/diagnose/arms/rigid_rows.hpp"
+#include "engine/diagnose/arms/arm_fit.hpp"
 
 namespace torquescope {
 

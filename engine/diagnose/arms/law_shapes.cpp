@@ -9,7 +9,7 @@
 #include "engine/fit/problem/arm_regression.hpp"
 #include "engine/fit/statistics/bounded_projection.hpp"
 #include "engine/fit/statistics/scaled_solution.hpp"
-#include "engine/infer/search/shape_grid.hpp"
+#include "engine/infer/all_rows/shape_grid.hpp"
 
 namespace torquescope {
 namespace {

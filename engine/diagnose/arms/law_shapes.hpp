@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/diagnose/arms/rigid_rows.hpp"
+#include "engine/diagnose/arms/arm_fit.hpp"
 
 namespace torquescope {
 

@@ -7,7 +7,6 @@
 
 #include "engine/base/dense_solvers.hpp"
 #include "engine/diagnose/arms/arm_laws.hpp"
-#include "engine/diagnose/arms/rigid_corrections.hpp"
 #include "engine/effects/given_effect.hpp"
 #include "engine/fit/statistics/scaled_solution.hpp"
 #include "engine/infer/pipeline/held_torque.hpp"
@@ -36,6 +35,13 @@ Eigen::MatrixXd stacked(std::vector<Eigen::MatrixXd> const& parts, std::size_t c
   Eigen::MatrixXd all(rows, parts.front().cols());
   for (std::size_t i = 0; i < count; row += parts[i++].rows()) all.middleRows(row, parts[i].rows()) = parts[i];
   return all;
+}
+
+// what a joint's own terms imitate: acceleration, speed, its sign, a constant; n x 4
+Eigen::MatrixXd own_columns(Motion const& joint) {
+  Eigen::MatrixXd own(joint.q.size(), 4);
+  own << joint.ddq, joint.dq, joint.dq.array().sign().matrix(), Eigen::VectorXd::Ones(joint.q.size());
+  return own;
 }
 
 // those that the ones before do not imitate, of columns that may be of any length

@@ -18,12 +18,4 @@ inline constexpr Eigen::Index fewest_rows = 100;  // ten in each block
 Eigen::VectorXd blocked_residuals(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
                                   Eigen::Index guard_rows);
 
-// The same of blocks as short as the guard, every tenth of which is left out together: a law that acts in one stretch
-// of the record is fitted on the rest of that stretch
-Eigen::VectorXd interleaved_residuals(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
-                                      Eigen::Index guard_rows);
-
-// energy left in all blocks, each predicted by the fit outside it
-double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns, Eigen::Index guard_rows);
-
 }  // namespace torquescope

@@ -130,32 +130,6 @@ BoundedGain bounded_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c
   return best;
 }
 
-BoundedGain boxed_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c, Eigen::VectorXd const& lower,
-                       Eigen::VectorXd const& upper) {
-  BoundedGain free = bounded_gain(group, c);
-  if ((free.parameters.array() >= lower.array()).all() && (free.parameters.array() <= upper.array()).all()) return free;
-  Eigen::MatrixXd const h = group.r.transpose() * group.r;
-  Eigen::VectorXd const g = group.r.transpose() * c;
-  BoundedGain result{0.0, free.parameters.cwiseMax(lower).cwiseMin(upper)};
-  auto& theta = result.parameters;
-  constexpr int most_sweeps = 1000;
-  constexpr double settled = 1e-9;  // of the gain that the free parameters have
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    double gained = 0.0;
-    for (Eigen::Index k = 0; k < theta.size(); ++k) {
-      if (h(k, k) <= 0.0) continue;
-      double const slope = g[k] - h.row(k).dot(theta);
-      double const next = std::clamp(theta[k] + slope / h(k, k), lower[k], upper[k]);
-      double const step = next - theta[k];
-      gained += 2.0 * slope * step - h(k, k) * step * step;
-      theta[k] = next;
-    }
-    if (gained <= settled * free.gain) break;
-  }
-  result.gain = 2.0 * g.dot(theta) - theta.dot(h * theta);
-  return result;
-}
-
 Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd const& columns) {
   Eigen::MatrixXd const none(columns.rows(), 0);
   return orthonormal_group(columns, none, std::vector<bool>(static_cast<std::size_t>(columns.cols()), false)).q;

@@ -45,11 +45,6 @@ struct BoundedGain {
 // c = q' y
 BoundedGain bounded_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c);
 
-// the same with every parameter in [lower, upper], L each; lower <= upper, infinite ones allowed.
-// By coordinate descent on the L x L problem (convex), to a billionth of the gain
-BoundedGain boxed_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c, Eigen::VectorXd const& lower,
-                       Eigen::VectorXd const& upper);
-
 // an orthonormal basis of all columns, dependent ones dropped
 Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd const& columns);
 

@@ -41,22 +41,6 @@ double empirical_p(double data, std::span<double const> twins) {
   return (1.0 + static_cast<double>(above)) / (static_cast<double>(twins.size()) + 1.0);
 }
 
-double tail_p(double data, std::span<double const> twins) {
-  double const counted = empirical_p(data, twins);
-  if (twins.size() < fewest_twins_for_tail) return counted;
-  std::vector<double> sorted(twins.begin(), twins.end());
-  std::sort(sorted.begin(), sorted.end());
-  auto const tail_size = static_cast<std::size_t>(tail_share * static_cast<double>(sorted.size()));
-  double const threshold = sorted[sorted.size() - tail_size - 1];
-  // inside the replicates the count is exact enough; beyond their tenth largest the fitted tail has less variance
-  if (data <= threshold || counted > 10.0 / static_cast<double>(sorted.size())) return counted;
-  double excess = 0.0;
-  for (std::size_t i = sorted.size() - tail_size; i < sorted.size(); ++i) excess += sorted[i] - threshold;
-  excess /= static_cast<double>(tail_size);
-  if (!(excess > 0.0)) return counted;
-  return static_cast<double>(tail_size) / static_cast<double>(sorted.size()) * std::exp(-(data - threshold) / excess);
-}
-
 double twin_z(double data, std::span<double const> twins) {
   TORQUESCOPE_EXPECT(twins.size() >= 2);
   Moments const moments = moments_of(twins);

@@ -16,11 +16,7 @@
 
 namespace torquescope {
 
-// replicates from which a tail is fitted
-inline constexpr std::size_t fewest_twins_for_tail = 200;
-
 double empirical_p(double data, std::span<double const> twins);
-double tail_p(double data, std::span<double const> twins);
 double twin_z(double data, std::span<double const> twins);
 
 // z of each replicate against the others (closed form): what the maximum over several statistics must be compared with.

@@ -7,6 +7,7 @@
 // Source     engine/infer/all_rows/THEORY.md, Numbers
 
 #include <cstddef>
+#include <cstdint>
 
 namespace torquescope {
 
@@ -31,17 +32,17 @@ struct DecisionNumbers {
   }
   // replicates of a model, and of these above which no name can come out any more (Besag, Clifford 1991,
   // doi:10.1093/biomet/78.2.301)
-  std::size_t replicates = 48, exceedances = 3;
+  std::int64_t replicates = 48, exceedances = 3;
   // squares that a sticking of friction may leave, over those of the best: what replicates draw
   double sticking_odds = 2.0;
   // s: the longest delay of the torque that is a nuisance; beyond it, it is none
   double longest_delay_s = 0.15;
   // candidates of a step whose shapes are refined
-  std::size_t refined = 5;
+  std::int64_t refined = 5;
   // energy by which columns may change from the recording to a replicate and still be computed once for all
   double same_columns = 0.01;
   // models that a ladder follows at once: greedy steps fail on ties (engine/infer/all_rows/THEORY.md, In the loop)
-  std::size_t beam = 3;
+  std::int64_t beam = 3;
   // of the torque's rms: a gain of the position's error that leaves less is what the torque was computed with
   double computed_torque = 0.01;
   // of the torque's rms: an identified controller that leaves more is no law of this loop; no source

@@ -129,7 +129,8 @@ class Search {
     auto const effects = effects_now();
     TrialModel const beside = trial_model(result_.final, effects, score, judged_);
     Eigen::VectorXd const gains = gains_of(findings);
-    auto tried = tried_laws(q_, beside, questions, findings, first_of(by_value(gains), q_.numbers.refined), kind);
+    auto tried = tried_laws(q_, beside, questions, findings,
+                            first_of(by_value(gains), static_cast<std::size_t>(q_.numbers.refined)), kind);
     tell("search", questions.size(), questions.size());
     std::vector<bool> const no_law(questions.size(), false);
     AskedLaws asked{std::vector<bool>(questions.size(), true), no_law, no_law};
@@ -170,7 +171,7 @@ class Search {
                                std::vector<LawQuestion> const& questions, std::vector<LawFinding> const& findings,
                                Chance const& chance, FoldKind kind) const {
     Eigen::VectorXd const gains = gains_of(findings), relative = chance.relative(gains), p = chance.p(gains);
-    std::vector<std::size_t> further = first_of(by_value(relative), q_.numbers.refined);
+    std::vector<std::size_t> further = first_of(by_value(relative), static_cast<std::size_t>(q_.numbers.refined));
     std::erase_if(further, [&](std::size_t law) {
       return p[static_cast<Eigen::Index>(law)] > q_.numbers.alpha ||
              std::any_of(tried.begin(), tried.end(), [&](TriedLaw const& one) { return one.question == law; });
@@ -313,7 +314,7 @@ class Search {
     double const gain = gain_beside(without, law), judged = errors_of(rows(), without).judged();
     double const as_it_is = kind == FoldKind::interleaved ? error_on_folds(rows(), result_.final) : judged_;
     auto tried = tried_laws(q_, trial_model(without, effects, score, judged), questions, findings,
-                            first_of(by_value(gains_of(findings)), q_.numbers.refined), kind);
+                            first_of(by_value(gains_of(findings)), static_cast<std::size_t>(q_.numbers.refined)), kind);
     std::erase_if(tried, [&](TriedLaw const& one) {
       double const own = level_beside(effect, one.facts.effect);
       double const least = gain - std::max(level_beside(effect, effect), own);

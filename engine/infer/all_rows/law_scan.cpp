@@ -6,7 +6,6 @@
 
 #include "engine/base/parallel.hpp"
 #include "engine/fit/statistics/scaled_solution.hpp"
-#include "engine/infer/search/candidate_columns.hpp"
 
 namespace torquescope {
 namespace {

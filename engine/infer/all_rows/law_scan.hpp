@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/infer/all_rows/score.hpp"
+#include "engine/infer/all_rows/shape_grid.hpp"
 #include "engine/infer/all_rows/treatment_choice.hpp"
-#include "engine/infer/search/shape_grid.hpp"
 
 namespace torquescope {
 

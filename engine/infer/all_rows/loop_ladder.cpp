@@ -183,7 +183,7 @@ class Ladder {
     LoopStepFacts step{{}, scan.replicates, {}};
     for (std::size_t const move : parent.fit.point.moves) step.model.push_back(q_.moves[move].subject);
     std::vector<ScannedMove> asked;
-    for (std::size_t i = 0; i < std::min(q_.numbers.refined, scan.moves.size()); ++i)
+    for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(q_.numbers.refined), scan.moves.size()); ++i)
       if (scan.moves[i].p <= q_.numbers.alpha && scan.moves[i].gain > 0.0) asked.push_back(scan.moves[i]);
     std::vector<TriedMove> fits = tried(parent, asked);
     std::vector<Member> children;
@@ -228,7 +228,7 @@ class Ladder {
     std::erase_if(all, [&](Member const& one) { return !(score(one, best) > 0.0); });
     std::stable_sort(all.begin(), all.end(),
                      [&](Member const& a, Member const& b) { return score(a, best) > score(b, best); });
-    if (all.size() > q_.numbers.beam) all.resize(q_.numbers.beam);
+    all.resize(std::min(all.size(), static_cast<std::size_t>(q_.numbers.beam)));
     return all;
   }
 

@@ -44,7 +44,7 @@ std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regr
     if (can_be_simulated(*law.effect, regressor) && (law.effect->is_wave() || !has(law.effect)))
       moves.push_back(law_move(*law.effect, law.shape, scales));
   std::vector<double> const no_shape;
-  std::size_t const most = moves.size() + numbers.refined;
+  std::size_t const most = moves.size() + static_cast<std::size_t>(numbers.refined);
   auto const add = [&](Effect const* law, std::vector<double> const& shape) {
     if (moves.size() < most && !is_clock_bound(*law) && can_be_simulated(*law, regressor) && !has(law))
       moves.push_back(law_move(*law, shape, scales));

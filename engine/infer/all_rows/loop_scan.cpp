@@ -25,7 +25,8 @@ class Scan {
         at_(unknowns_.begin_at(model_.start())) {
     if (fit.point.starts.size() == at_.starts.size()) at_.starts = fit.point.starts;
     plane_ = tangent_at(unknowns_, at_);
-    rows_ = loop_replicates(unknowns_, at_, {q_.numbers.replicates, q_.seed, step, q_.threads});
+    rows_ =
+        loop_replicates(unknowns_, at_, {static_cast<std::size_t>(q_.numbers.replicates), q_.seed, step, q_.threads});
     for (std::size_t channel = 0; channel < n_channels; ++channel) {
       Eigen::MatrixXd& rows = rows_[channel];
       Eigen::MatrixXd const& own = plane_.residual[channel];

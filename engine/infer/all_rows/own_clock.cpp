@@ -6,7 +6,7 @@
 
 #include "engine/effects/carry_over.hpp"
 #include "engine/fit/statistics/bounded_projection.hpp"
-#include "engine/infer/search/own_event.hpp"
+#include "engine/infer/all_rows/own_event.hpp"
 
 namespace torquescope {
 namespace {

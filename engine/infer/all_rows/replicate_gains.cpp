@@ -36,7 +36,7 @@ class Replicates {
   }
 
   ReplicateGains run(std::vector<LawQuestion>& questions) && {
-    std::size_t const wanted = q_.numbers.replicates;
+    auto const wanted = static_cast<std::size_t>(q_.numbers.replicates);
     for (std::size_t first = 0; first < draws_for_each * wanted && count() < wanted; first += twin_lanes) {
       tell(wanted);
       take(within(drawn(first)), questions);

@@ -11,7 +11,6 @@
 #include "engine/infer/all_rows/sticking_shape.hpp"
 #include "engine/infer/pipeline/held_torque.hpp"
 #include "engine/infer/pipeline/joint_bounds.hpp"
-#include "engine/infer/replicates/twin_batch.hpp"
 
 namespace torquescope {
 namespace {
@@ -80,6 +79,18 @@ TrackedJoint tracked(TwinJoint const& joint) {
           joint.coulomb_backward + joint.offset,
           joint.lanes.gravity_sin,
           joint.lanes.gravity_cos};
+}
+
+// one of a group as if it had been recorded
+Recording recording_of(TwinGroup const& group, std::size_t lane, double rate_hz) {
+  Recording recording;
+  recording.name = "a replicate";
+  recording.rate_hz = rate_hz;
+  recording.position = group.position[lane];
+  recording.torque = group.torque[lane];
+  Eigen::Index const samples = recording.torque.size();
+  recording.time_s = Eigen::VectorXd::LinSpaced(samples, 0.0, static_cast<double>(samples - 1) / rate_hz);
+  return recording;
 }
 
 }  // namespace

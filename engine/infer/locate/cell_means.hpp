@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/infer/locate/map_axes.hpp"
-#include "engine/infer/replicates/mismatch_rows.hpp"
+#include "engine/infer/locate/mismatch_rows.hpp"
 
 namespace torquescope {
 

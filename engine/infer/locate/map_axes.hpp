@@ -19,7 +19,7 @@
 
 #include "engine/effects/effect_traits.hpp"
 #include "engine/effects/joint_scales.hpp"
-#include "engine/infer/pipeline/motion_axes.hpp"
+#include "engine/infer/locate/motion_axes.hpp"
 
 namespace torquescope {
 

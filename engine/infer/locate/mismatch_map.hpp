@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "engine/effects/joint_scales.hpp"
-#include "engine/infer/replicates/mismatch_rows.hpp"
+#include "engine/infer/locate/mismatch_rows.hpp"
 #include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {

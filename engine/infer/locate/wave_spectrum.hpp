@@ -15,7 +15,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "engine/infer/replicates/mismatch_rows.hpp"
+#include "engine/infer/locate/mismatch_rows.hpp"
 
 namespace torquescope {
 

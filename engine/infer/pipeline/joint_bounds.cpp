@@ -26,16 +26,6 @@ JointBounds joint_bounds(JointModel const& model) {
   return bounds;
 }
 
-std::vector<bool> sizes_of_effects(JointModel const& model) {
-  std::vector<bool> const non_negative = model.non_negative();
-  std::vector<bool> sizes(non_negative.size(), false);
-  for (std::size_t i = 0; i < model.effects().size(); ++i) {
-    std::size_t const first = model.first_parameter(i);
-    sizes[first] = non_negative[first] && model.effects()[i].effect->n_linear() == 1;
-  }
-  return sizes;
-}
-
 Eigen::VectorXd without_negatives(Eigen::VectorXd fit, JointModel const& model) {
   std::vector<bool> const non_negative = model.non_negative();
   for (Eigen::Index k = 0; k < fit.size(); ++k)

@@ -24,18 +24,6 @@ struct JointBounds {
 
 JointBounds joint_bounds(JointModel const& model);
 
-// Which parameters cannot be negative and are by themselves all that an effect has of size. Of an effect with more of
-// them one may be 0, and stands for a shape then (a damping beside a distance) that would take its place if it could be
-// less
-std::vector<bool> sizes_of_effects(JointModel const& model);
-
-// what a fit heeds of them (joint_fit.hpp)
-struct FitBounds {
-  double least_inertia_share = 1e-3;  // of what would take all torque
-  bool of_effects = true;             // false: not of those of which sizes_of_effects() are
-  bool by_turns = false;              // a held inertia asks for half of the largest torque in the turns, at most
-};
-
 // a fit's parameters with 0 for what cannot be negative and is
 Eigen::VectorXd without_negatives(Eigen::VectorXd fit, JointModel const& model);
 

@@ -10,6 +10,7 @@
 namespace torquescope {
 namespace {
 
+constexpr double least_share = 1e-3;  // of what would take all torque
 constexpr double light_share = 0.03;  // of a joint that a loop can hold, in place of one that is none
 
 // parameters that share one value; one of them as a rule
@@ -18,19 +19,12 @@ using Group = std::vector<Eigen::Index>;
 class JointFit {
  public:
   JointFit(ProcessedRecord& record, JointModel const& model, std::vector<Eigen::Index> const& present,
-           std::string const& name, FitBounds const& fit_bounds)
+           std::string const& name)
       : record_(record),
         owners_(model.column_owners()),
         bounds_(joint_bounds(model)),
         name_(name),
-        least_share_(fit_bounds.least_inertia_share),
-        by_turns_(fit_bounds.by_turns),
         is_whole_(present.size() == owners_.size()) {
-    if (!fit_bounds.of_effects) {
-      std::vector<bool> const free = sizes_of_effects(model);
-      for (std::size_t k = 0; k < free.size(); ++k)
-        if (free[k]) bounds_.non_negative[k] = false;
-    }
     for (Eigen::Index column : present) groups_.push_back({column});
   }
 
@@ -124,31 +118,18 @@ class JointFit {
     double const acceleration = record_.columns.col(column).norm();
     if (!(acceleration > 0.0)) return false;
     double const all_of_torque = record_.torque.norm() / acceleration;
-    if (record_.parameters[column] >= least_share_ * all_of_torque) return false;
+    if (record_.parameters[column] >= least_share * all_of_torque) return false;
     inertia_ = column;
-    held_inertia_ = std::max(light_share, least_share_) * all_of_torque;
-    if (by_turns_) held_inertia_ = std::min(held_inertia_, largest_that_turns());
+    held_inertia_ = light_share * all_of_torque;
     groups_.erase(group);
     record_.held = "inertia";
     return true;
-  }
-
-  // Rows of strokes at one speed hardly accelerate; the turns between them do, where no row is left. An inertia that
-  // would ask there for more than a half of the largest torque is none that a loop leads round
-  double largest_that_turns() const {
-    constexpr double half = 0.5;
-    Motion const& motion = record_.motion;
-    double const fastest = motion.ddq.size() > 0 ? motion.ddq.cwiseAbs().maxCoeff() : 0.0;
-    double const most = motion.torque.size() > 0 ? motion.torque.cwiseAbs().maxCoeff() : 0.0;
-    return fastest > 0.0 && most > 0.0 ? half * most / fastest : std::numeric_limits<double>::infinity();
   }
 
   ProcessedRecord& record_;
   std::vector<RegressorColumn> owners_;
   JointBounds bounds_;
   std::string const& name_;
-  double least_share_;
-  bool by_turns_;
   bool is_whole_;
   std::vector<Group> groups_;
   Eigen::Index inertia_ = JointBounds::none;  // held at its bound
@@ -158,8 +139,8 @@ class JointFit {
 }  // namespace
 
 void fit_joint(ProcessedRecord& record, JointModel const& model, std::vector<Eigen::Index> const& present,
-               std::string const& name, FitBounds const& bounds) {
-  JointFit(record, model, present, name, bounds).run();
+               std::string const& name) {
+  JointFit(record, model, present, name).run();
 }
 
 }  // namespace torquescope

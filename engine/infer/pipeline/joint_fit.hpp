@@ -2,9 +2,8 @@
 // Least squares of a joint's parameters within the bounds of a possible joint, so that it can be simulated.
 //
 // Bounds     parameters of effects that cannot be negative are 0 where least squares would make them so; dry friction
-//            that would drive the joint is none; an inertia that takes less than a share of the torque (a thousandth,
-//            as a rule) is one that takes three hundredths, or that share
-// Free       effects with one parameter may be left unbounded, in a fit that is a statistic (model_stage.hpp)
+//            that would drive the joint is none; an inertia that takes less than a thousandth of the torque is one that
+//            takes three hundredths
 // Why        missing physics bends the fitted parameters: a pendulum without its weight gets a negative inertia
 // Held       bounds reached are recorded: a plain model at a bound shows a wrong sign (recording_checks.hpp)
 // Threads    free function
@@ -21,6 +20,6 @@ namespace torquescope {
 // that count, others have parameter 0
 // Errors     Error 65 when the rows cannot tell the parameters apart
 void fit_joint(ProcessedRecord& record, JointModel const& model, std::vector<Eigen::Index> const& present,
-               std::string const& name, FitBounds const& bounds = {});
+               std::string const& name);
 
 }  // namespace torquescope

@@ -48,25 +48,6 @@ std::vector<bool> JointModel::non_negative() const {
   return signs;
 }
 
-bool JointModel::has_inertia() const {
-  return std::any_of(effects_.begin(), effects_.end(), [](auto const& one) { return one.effect->has_inertia(); });
-}
-
-MotorTorque JointModel::motor_torque(Motion const& motion, Motion const& drive,
-                                     Eigen::VectorXd const& parameters) const {
-  Eigen::MatrixXd const all = columns(motion, drive);
-  MotorTorque torque{all * parameters, {}};
-  for (std::size_t i = 0; i < effects_.size(); ++i) {
-    if (effects_[i].effect->acts_on() != ActsOn::recorded_torque) continue;
-    auto const first = static_cast<Eigen::Index>(first_parameter(i));
-    auto const width = static_cast<Eigen::Index>(effects_[i].effect->n_linear());
-    Eigen::VectorXd const added = all.middleCols(first, width) * parameters.segment(first, width);
-    torque.given -= added;
-    torque.channel_adds = torque.channel_adds.size() > 0 ? Eigen::VectorXd(torque.channel_adds + added) : added;
-  }
-  return torque;
-}
-
 Eigen::MatrixXd JointModel::columns(Motion const& motion, Motion const& drive) const {
   if (effects_.empty()) return regressor_->columns(motion, reference_.given.get());
   Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(size()));
@@ -113,23 +94,6 @@ FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& re
                       motion, reference.scales.cutoff_hz, reference.scales.encoder_step, reference.beside_motion());
   baseline.scales = reference.scales;
   return baseline;
-}
-
-// of harmonics people know the fundamental, and the one that was found first may be any of them
-std::vector<std::size_t> waves_in_order(JointModel const& model) {
-  // with a column beside them, the wave that was fitted first has it for all
-  constexpr std::size_t sine_and_cosine = 2;
-  auto const& effects = model.effects();
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    ShapedEffect const& one = effects[i];
-    auto const is_longer = [&](std::size_t k) {
-      return effects[k].effect == one.effect && one.effect->n_linear() == sine_and_cosine &&
-             one.shape < effects[k].shape;
-    };
-    order.insert(std::find_if(order.begin(), order.end(), is_longer), i);
-  }
-  return order;
 }
 
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 //            so that the model stays linear in its parameters and is the same for the recording and its replicates
 // Units      SI
 // Threads    const object, any number of threads
-// Source     engine/infer/moving_rows/THEORY.md, The search
+// Source     engine/infer/all_rows/THEORY.md, The rules
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -36,12 +36,6 @@ struct BaselineReference {
   BesideMotion beside_motion() const { return {given.get(), gear_load.get()}; }
 };
 
-// one per sample
-struct MotorTorque {
-  Eigen::VectorXd given;         // to the joint
-  Eigen::VectorXd channel_adds;  // to the record of it: of effects of the torque channel; empty without any
-};
-
 class JointModel {
  public:
   // NOLINTNEXTLINE(google-explicit-constructor): a regressor is a model without effects; it outlives the model
@@ -53,12 +47,6 @@ class JointModel {
   // the same model on that recording: its gear load and what other joints do there, or none
   void load_as_in(Recording const& recording);
   std::vector<ShapedEffect> const& effects() const { return effects_; }
-  // effect i at another shape
-  JointModel with_shape(std::size_t i, std::vector<double> shape) const {
-    JointModel other = *this;
-    other.effects_[i].shape = std::move(shape);
-    return other;
-  }
   std::size_t size() const;
   // index of the first parameter of effect i
   std::size_t first_parameter(std::size_t effect) const;
@@ -66,11 +54,9 @@ class JointModel {
   // parameters of effects that physics allows no negative value; those of the baseline are free
   std::vector<bool> non_negative() const;
 
-  bool has_inertia() const;  // of any effect
   // drive: the same motion with a wider band, for effects that have an inertia (record_pipeline.hpp)
   Eigen::MatrixXd columns(Motion const& motion, Motion const& drive) const;
   // what the joint needs at these parameters
-  MotorTorque motor_torque(Motion const& motion, Motion const& drive, Eigen::VectorXd const& parameters) const;
   // linear parameters, then the shape: as Effect::runner takes them
   std::vector<double> effect_parameters(std::size_t effect, Eigen::VectorXd const& parameters) const;
   // Errors: Error 65 as make_twin_joint
@@ -87,8 +73,5 @@ std::shared_ptr<Eigen::VectorXd const> gear_load_of(Recording const& recording);
 
 // load and model torque of the reference on a motion, its scales as they are
 FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& reference, Motion const& motion);
-
-// of the model's effects: as they come, but sines of one kind the longest first
-std::vector<std::size_t> waves_in_order(JointModel const& model);
 
 }  // namespace torquescope

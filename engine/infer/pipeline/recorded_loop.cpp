@@ -10,7 +10,6 @@
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/signal_facts.hpp"
 #include "engine/infer/pipeline/drive_torque.hpp"
-#include "engine/infer/pipeline/held_torque.hpp"
 
 namespace torquescope {
 namespace {
@@ -113,55 +112,10 @@ double slowest_velocity(Recording const& recording, Eigen::VectorXd const& smoot
   return standard_deviations * 2.0 * std::numbers::pi * band_hz * noise * std::sqrt(share / 3.0);
 }
 
-// Whether of the torque that was asked for beyond a limit of the law the joint has needed, and so has got, the greater
-// part: the drive's limit lets nothing of it through, the channel's lets all of it. side: 1 of the upper limit, -1 of
-// the lower one
-bool is_limit_of_channel(ControllerFit const& fit, double side, Eigen::VectorXd const& needed) {
-  constexpr double half = 0.5;  // as near to all of it as to nothing
-  double const limit = side > 0.0 ? fit.law.most : fit.law.least;
-  double arrived = 0.0, asked = 0.0;
-  for (auto const& [sample, beyond] : fit.limited) {
-    if (beyond * side < 0.0) continue;
-    arrived += beyond * (needed[sample] - limit);
-    asked += beyond * beyond;
-  }
-  return arrived > half * asked;
-}
-
 }  // namespace
-
-RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter,
-                           NeededTorque const& needed_torque) {
-  if (recording.reference.size() != recording.position.size()) {
-    RecordedLoop own = tracking_loop(recording, joint, filter);
-    own.remark = "there is no reference: " + own.remark;
-    return own;
-  }
-  RecordedLoop result = common_parts(recording);
-  result.track.reference = recording.reference;
-  if (recording.gear_load.size() > 0) result.track.gear_load = torque_to_hold(recording.gear_load);
-  Eigen::VectorXd const torque = drive_torque(recording);
-  Eigen::VectorXd const* const of_others = recording.gear_load.size() > 0 ? &result.track.gear_load : nullptr;
-  result.controller = fit_controller({recording.time_s, recording.reference, recording.position, torque, of_others});
-  result.source = result.controller->is_white ? LoopSource::identified : LoopSource::approximated;
-  result.loop.law = result.controller->law;
-  if (needed_torque && !result.controller->limited.empty()) {
-    Eigen::VectorXd needed = needed_torque(result.controller->limited);
-    if (of_others != nullptr) needed += *of_others;
-    bool const has_most = is_limit_of_channel(*result.controller, 1.0, needed);
-    bool const has_least = is_limit_of_channel(*result.controller, -1.0, needed);
-    if (has_most) result.loop.law.most = std::numeric_limits<double>::infinity();
-    if (has_least) result.loop.law.least = -std::numeric_limits<double>::infinity();
-    if (has_most || has_least) result.remark = "the torque channel has a limit that the drive does not have; ";
-  }
-  result.loop.torque_noise = result.controller->noise;
-  result.remark += result.controller->remark;
-  return result;
-}
 
 RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter) {
   RecordedLoop result = common_parts(recording);
-  result.source = LoopSource::tracking;
   result.track.reference = smoothed_motion(recording, filter);
   if (!is_last_resort(recording))
     result.track.largest_torque =
@@ -172,14 +126,12 @@ RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint
   double const slow = slowest_velocity(recording, result.track.reference, result.loop.encoder_step, filter);
   result.loop.law = tracking_law(joint, bandwidth_hz, {recording.rate_hz, slow});
   result.loop.torque_noise = white(white_noise(recording.torque));
-  result.remark = "replicates follow the measured motion in a stiff loop of our own";
   return result;
 }
 
 RecordedLoop torque_fed_loop(Recording const& recording, double inertia, FilterOptions const& filter) {
   constexpr double tenth = 0.1;  // of the filter's cut-off: friction turns round within its period
   RecordedLoop result = common_parts(recording);
-  result.source = LoopSource::tracking;
   result.track.reference = smoothed(recording.position, recording.rate_hz, filter);
   result.track.fed_forward = smoothed(recording.torque, recording.rate_hz, filter);
   double const widest = bandwidth_share * recording.rate_hz;

@@ -42,7 +42,7 @@ std::optional<Hopeless> check_silence(Excitation const& facts) {
 }
 
 std::optional<Hopeless> check_sign(ProcessedRecord const& record) {
-  double const work = record.motion->torque.dot(record.motion->dq);
+  double const work = record.motion.torque.dot(record.motion.dq);
   if (record.held.empty() || work >= 0.0) return std::nullopt;
   return Hopeless{Verdict::data_fault,
                   "the torque takes work out of the joint, and the fitted " + record.held + " is negative",

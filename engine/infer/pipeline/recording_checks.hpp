@@ -1,7 +1,7 @@
 #pragma once
 // What makes a diagnosis of a recording hopeless before it begins: the finding and the way out, no search.
 //
-// Rule       limits: METHOD.md, Checks before the search. insufficient: the motion is too small. data fault: the torque
+// Rule       limits: METHOD.md, A first look. insufficient: the motion is too small. data fault: the torque
 //            channel is held too long, or has the wrong sign. What else a motion lacks closes laws (motion_limits.hpp)
 // Silence    "mostly one speed" is checked only when nothing was found: such a motion cannot show laws of the speed
 // Units      as Excitation

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "engine/base/contract.hpp"
 
@@ -28,19 +27,6 @@ double still_speed(Eigen::VectorXd const& dq) { return dq.size() > 0 ? still_sha
 
 bool is_still(double dq, double slowest) { return std::abs(dq) < slowest || dq == 0.0; }
 
-// stretches without a faster sample that are longer than `reach`: first sample, one past the last
-std::vector<std::pair<Eigen::Index, Eigen::Index>> rests(Eigen::VectorXd const& dq, Eigen::Index reach) {
-  double const slowest = still_speed(dq);
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> found;
-  for (Eigen::Index k = 0; k < dq.size();) {
-    Eigen::Index end = k;
-    while (end < dq.size() && is_still(dq[end], slowest)) ++end;
-    if (end - k > reach) found.emplace_back(k, end);
-    k = std::max(end, k + 1);
-  }
-  return found;
-}
-
 }  // namespace
 
 Eigen::Index mask_reach(double rate_hz, double cutoff_hz) {
@@ -64,22 +50,6 @@ std::vector<bool> moving_samples(Eigen::VectorXd const& dq, double rate_hz, doub
     dropped_to = end;
   }
   return moving;
-}
-
-std::vector<bool> samples_without_rest(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz) {
-  Eigen::Index const n = dq.size(), reach = mask_reach(rate_hz, cutoff_hz);
-  std::vector<bool> kept(static_cast<std::size_t>(n), true);
-  for (auto const& [first, end] : rests(dq, reach))
-    for (Eigen::Index i = std::max<Eigen::Index>(0, first - reach); i < std::min(n, end + reach); ++i)
-      kept[static_cast<std::size_t>(i)] = false;
-  return kept;
-}
-
-std::vector<bool> resting_samples(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz) {
-  std::vector<bool> rest(static_cast<std::size_t>(dq.size()), false);
-  for (auto const& [first, end] : rests(dq, mask_reach(rate_hz, cutoff_hz)))
-    for (Eigen::Index i = first; i < end; ++i) rest[static_cast<std::size_t>(i)] = true;
-  return rest;
 }
 
 }  // namespace torquescope

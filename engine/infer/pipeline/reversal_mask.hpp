@@ -9,7 +9,7 @@
 // Shapes     dq: n samples at the full rate; result: n, true where the sample is kept
 // Units      rad/s or m/s; Hz
 // Threads    free function
-// Source     METHOD.md, Reversal mask
+// Source     METHOD.md, A first look
 
 #include <Eigen/Core>
 #include <vector>
@@ -20,12 +20,5 @@ namespace torquescope {
 Eigen::Index mask_reach(double rate_hz, double cutoff_hz);
 
 std::vector<bool> moving_samples(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz);
-
-// dropped: every stretch slower than 0.005 v that lasts longer than 1.6 / cutoff_hz, and as much before and after
-// it
-std::vector<bool> samples_without_rest(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz);
-
-// such a stretch itself, and nothing round it
-std::vector<bool> resting_samples(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz);
 
 }  // namespace torquescope

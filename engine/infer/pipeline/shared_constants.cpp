@@ -64,9 +64,9 @@ std::vector<std::string> terms_to_drop(Regressor const& regressor, ProcessedReco
   auto const stands_for_all = [&](Constant const& one) {
     bool const is_there = !prepared.columns.col(one.column).isZero(0.0);
     return is_there && one.term->is_dry_friction() &&
-           one.term->torque({.dq = prepared.motion->dq.mean()},
+           one.term->torque({.dq = prepared.motion.dq.mean()},
                             std::vector<double>{fitted(prepared, others, one.column)}, {}) *
-                   prepared.motion->dq.mean() >
+                   prepared.motion.dq.mean() >
                0.0;
   };
   auto kept = std::find_if(constants.begin(), constants.end(), stands_for_all);

@@ -64,7 +64,7 @@ SimulatorGap gap_to_simulator(Recording const& recording, RecordPipeline const& 
   SimulatorGap gap;
   gap.simulator_parameters = of_simulator.parameters;
   gap.parameter_errors = of_simulator.parameters - of_joint.parameters;
-  gap.beyond_rms = std::sqrt(of_simulator.energy() / static_cast<double>(of_simulator.residual.size()));
+  gap.beyond_rms = std::sqrt(of_simulator.residual.squaredNorm() / static_cast<double>(of_simulator.residual.size()));
   double const difference = (of_joint.torque - of_simulator.torque).squaredNorm();
   double const left = (of_joint.residual - of_simulator.residual).squaredNorm();
   gap.parameter_share = difference > 0.0 ? 1.0 - left / difference : 0.0;

@@ -6,7 +6,7 @@
 // relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated moving rows (reversal_mask.hpp), or all but rests
 //            where `rows` says so
 // Threads    plain records
-// Source     moving_rows/THEORY.md, Verdict; as JSON: workflows/results/diagnosis_json.hpp; as HDF5:
+// Source     all_rows/THEORY.md, Adequacy; as JSON: workflows/results/diagnosis_json.hpp; as HDF5:
 //            store/RESULT_FORMAT.md
 
 #include <Eigen/Core>
@@ -184,14 +184,6 @@ struct HeldOutTest {
   std::size_t blocks = 0;
 };
 
-// another level of dry friction in a recording that was predicted (validation/level_change.hpp)
-struct LevelChange {
-  std::string recording{};
-  bool goes_both_ways = true;  // false: friction or offset
-  double level = 0.0;          // torque, more than in training
-  double relerr_before = unknown, relerr_with = unknown;
-};
-
 // what laws took from the fitted baseline (JointScales); of results before 27 Nov 2026 unknown
 struct LawLevels {
   double forward = unknown, backward = unknown;  // friction_sign() of either direction
@@ -221,9 +213,7 @@ struct JointDiagnosis {
   double explained_share = unknown, explained_low = unknown, explained_high = unknown;
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
-  std::string verdict_reason{};  // word of the row of the verdict table (moving_rows/verdict_table.hpp); not stored
-  std::string other_joints{};    // that what is left goes with their motion: a sentence of the reason, not stored
-  std::string refutation{};      // why validation refuted the effects: a clause of the reason, not stored
+  std::string other_joints{};  // that what is left goes with their motion: a sentence of the reason, not stored
   std::vector<ExcitationAdvice> excitation{};
   std::vector<std::string> nuisances{};  // what was refitted on the first 5 % of a validation recording
   std::vector<TorqueTrace> traces{};     // the validation recordings, else the training ones
@@ -242,10 +232,9 @@ struct JointDiagnosis {
   std::size_t twins = 0;
   double omnibus_z = 0.0, omnibus_p = 1.0;    // of the whole mismatch, at the first step
   double mismatch_rms = 0.0;                  // torque beyond the twins
-  double mismatch_share = unknown;            // the same over the torque's rms, rows weighed; in the reason, not stored
   double left_rms = 0.0;                      // the same with the accepted effects in the model
   std::vector<double> twin_energy{};          // residual energy of each twin over that of the recording
-  std::optional<DecisionAccount> decision{};  // on all samples, where the job asks for it
+  std::optional<DecisionAccount> decision{};  // what it was decided from
   std::string
       power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown
 };

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/experiment/experiment_parts.hpp"
+#include "engine/simulate/controller_fit.hpp"
 #include "engine/store/result_reader.hpp"
 #include "engine/workflows/workflows.hpp"
 #include "support/recordings_folder.hpp"
@@ -47,6 +49,28 @@ TEST(Emps, GivesThePublishedParametersAndErrors) {
   // the population methods find the same optimum
   for (std::string const label : {"de", "fade"})
     EXPECT_NEAR(result.attribute<double>("/runs/" + label, "relerr_median"), train, 1e-5) << label;
+}
+
+// published: u = kv (kp (q_ref - q) - dq), in V
+TEST(Emps, TheControllerFoundInItsTorqueIsThePublishedOne) {
+  constexpr double newton_per_volt = 35.15065, kp = 160.18, kv = 243.45;
+  fs::path const recordings = test::recordings_folder();
+  SKIP_WITHOUT(recordings / "emps/emps_train.csv.gz");
+  test::TemporaryFolder const folder;
+  auto const job = Experiment::load(folder.write("emps.toml", job_for(recordings, "jobs/emps_diagnose.toml")),
+                                    Experiment::Purpose::diagnose);
+  Recording const& recording = job.parts().train.recordings.front();
+  ASSERT_EQ(recording.reference.size(), recording.position.size());
+  ControllerFit const found =
+      fit_controller({recording.time_s, recording.reference, recording.position, recording.torque, nullptr});
+  EXPECT_GT(found.r_squared, 0.99999);
+  EXPECT_NEAR(found.law.proportional_gain() / (kp * kv * newton_per_volt), 1.0, 1e-3);
+  EXPECT_NEAR(found.law.velocity_gain(recording.rate_hz) / (kv * newton_per_volt), 1.0, 0.01);
+  EXPECT_EQ(found.law.integral, 0.0);
+  // the velocity loop has an encoder of its own: its rounding is not in the recorded position, so the remainder is
+  // small but not white, and says so
+  EXPECT_FALSE(found.is_white);
+  EXPECT_LT(found.noise.std, 0.005 * newton_per_volt);
 }
 
 // Published, simulated in closed loop: 5.85 % of the force in training, 8.94 % on the pulses (Janot, Gautier, Brunot

@@ -7,7 +7,6 @@
 
 #include <regex>
 
-#include "engine/account/withdrawn_names.hpp"
 #include "engine/effects/effect.hpp"
 #include "support/example_diagnosis.hpp"
 
@@ -63,26 +62,6 @@ TEST(ReasonSentence, CallsTheJointByItsColumn) {
   }
 }
 
-TEST(ReasonSentence, OfRefutedNamesWithoutUnseenDataTellsBlocks) {
-  JointDiagnosis refuted = example::invented_unexplained().joints[0];
-  refuted.effects = {effect_of(*find_effect("backlash"), 0.2)};
-  refuted.validation_relerr = unknown;
-  refuted.cv_relerr = 0.027;
-  refuted.augmented_cv_relerr = 0.0271;
-  EXPECT_EQ(refutation_clause(refuted, false),
-            "backlash, which would explain it, takes the cross-validated error from 2.7 % to 2.7 %");
-}
-
-TEST(ReasonSentence, OfNamesThatRaiseTheErrorOfAllSamplesTellsThatError) {
-  JointDiagnosis refuted = example::invented_unexplained().joints[0];
-  refuted.effects = {effect_of(*find_effect("maxwell_slip"), 0.2)};
-  refuted.validation_relerr = 0.0038;
-  refuted.augmented_validation_relerr = 0.0036;
-  refuted.validation_left_out = {0.62, 0.99, 0.021, 0.024, 10.0};
-  EXPECT_EQ(refutation_clause(refuted, false),
-            "maxwell slip, which would explain it, takes the validation error of all samples from 2.1 % to 2.4 %");
-}
-
 TEST(ReasonSentence, TellsTwoEffectsAndNamesTheOthers) {
   Diagnosis diagnosis = example::invented_diagnosis();
   EXPECT_THAT(reason_sentence(diagnosis),
@@ -133,35 +112,6 @@ TEST(ReasonSentence, OfSomethingElseSaysWhereItIsAndThatNothingFits) {
             "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, more than simulated replicates have "
             "there, but none of "
             "34 known effects fits it.");
-}
-
-TEST(ReasonSentence, OfRefutedNamesSaysWhatTheyPromisedAndWhatTheyDid) {
-  Diagnosis diagnosis = example::invented_unexplained();
-  JointDiagnosis refuted = diagnosis.joints[0];
-  refuted.effects = {effect_of(*find_effect("backlash"), 0.2)};
-  refuted.validation_relerr = 0.0222;
-  refuted.augmented_validation_relerr = 0.0247;
-  refuted.floor_relerr = 0.0157;
-  diagnosis.joints[0].refutation = refutation_clause(refuted, false);
-  EXPECT_EQ(reason_sentence(diagnosis),
-            "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, more than simulated replicates have "
-            "there, but "
-            "backlash, "
-            "which would explain it, takes the validation error from 2.2 % to 2.5 %, where replicates with it promise "
-            "1.6 %.");
-  diagnosis.joints[0].refutation = refutation_clause(refuted, true);
-  EXPECT_THAT(reason_sentence(diagnosis),
-              EndsWith("from 2.2 % to 2.5 %, and a joint simulated with it no longer follows the reference."));
-}
-
-TEST(ReasonSentence, OfNamesThatExplainTooLittleSaysHowMuch) {
-  Diagnosis diagnosis = example::invented_unexplained();
-  JointDiagnosis closest = diagnosis.joints[0];
-  closest.effects = {effect_of(*find_effect("breakaway_dwell"), 0.2)};
-  diagnosis.joints[0].refutation = too_little_clause(closest, 0.331);
-  EXPECT_THAT(reason_sentence(diagnosis),
-              EndsWith("but breakaway dwell, the closest of 34 known effects, explains 33.1 % of "
-                       "what is missing."));
 }
 
 TEST(ReasonSentence, OfABadRecordingEndsWithTheWayOut) {

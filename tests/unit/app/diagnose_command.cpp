@@ -56,7 +56,6 @@ class DiagnoseCommand : public ::testing::Test {
       progress({"search", 34, 34, 0, 0, 8.8, "effects"});
       progress({"replicates", 200, 200, 0, 0, 7.4, "replicates"});  // again, with what was named
       Diagnosis const diagnosis = diagnose_into_file(experiment, request, [this] { return found; });
-      if (is_second) throw Error(Problem{ExitCode::stopped, "another one has written the result"});
       return diagnosis;
     });
     std::vector<std::string> words{"diagnose", (folder / "job.toml").string(), "--out", result().string()};
@@ -102,7 +101,6 @@ class DiagnoseCommand : public ::testing::Test {
   test::TemporaryFolder folder{};
   Diagnosis found = example::invented_diagnosis();
   int diagnosed = 0;
-  bool is_second = false;
 };
 
 TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
@@ -143,15 +141,14 @@ TEST_F(DiagnoseCommand, WritesTheColumnsOfEffectsInsteadOfADiagnosis) {
   EXPECT_EQ(run({"--columns", columns.string()}).code, ExitCode::exists);
 }
 
-TEST_F(DiagnoseCommand, OfAShardThatIsSecondShowsTheResultOfTheFirst) {
-  is_second = true;
-  Outcome const outcome = run({"--shard", "1/2"});
-  EXPECT_EQ(outcome.code, ExitCode::ok);
-  EXPECT_THAT(outcome.err, HasSubstr("1/2 (--shard)"));
-  EXPECT_THAT(outcome.err, HasSubstr("another shard was first"));
-  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Stribeck friction"));
-  std::filesystem::remove(result());
-  EXPECT_EQ(run({"--shard", "0/1"}).code, ExitCode::stopped) << "of no shard it is a stop";
+TEST_F(DiagnoseCommand, IsMadeByOneShardAlone) {
+  Outcome const other = run({"--shard", "1/2"});
+  EXPECT_EQ(other.code, ExitCode::ok);
+  EXPECT_THAT(other.err, HasSubstr("a diagnosis is not divided, --shard 0/2 makes it"));
+  EXPECT_EQ(diagnosed, 0);
+  EXPECT_FALSE(std::filesystem::exists(result()));
+  EXPECT_EQ(run({"--shard", "0/2"}).code, ExitCode::ok);
+  EXPECT_EQ(diagnosed, 1);
 }
 
 TEST_F(DiagnoseCommand, EndsWithTheCodeOfItsVerdictWhereSomebodyAsks) {

@@ -11,7 +11,7 @@
 
 #include "engine/base/random_stream.hpp"
 #include "engine/diagnose/joint_diagnosis.hpp"
-#include "unit/replicates/clean_records.hpp"
+#include "unit/pipeline/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;
@@ -52,11 +52,10 @@ Diagnosis diagnosed(Recording const& train, std::vector<Recording> const& valida
   }();
   static Section const section{};
   DiagnosisInput input{train, validate, clean_regressor(), filter, section};
-  for (auto const& name : candidates) input.selection.candidates.push_back(find_effect(name));
-  input.twins = 100;  // below 1 / 101 four candidates can be told from chance
+  for (auto const& name : candidates) input.candidates.push_back(find_effect(name));
   input.seed = 1;
   input.threads = 2;
-  return diagnose_joint(input, {}).diagnosis;
+  return diagnose_joint(input, {});
 }
 
 bool names(Diagnosis const& diagnosis, std::string const& name) {

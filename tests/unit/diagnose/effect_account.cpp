@@ -1,14 +1,14 @@
 // The size that is told of an effect is what the model's own terms would not imitate, at the place that is told with
 // it; and friction has no place in a rest.
 
-#include "engine/diagnose/effect_account.hpp"
+#include "engine/diagnose/strip_account.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 
-#include "unit/replicates/clean_records.hpp"
+#include "unit/pipeline/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;
@@ -19,10 +19,14 @@ EffectAccount account_with(SimulationPlan plan, Regressor const& regressor, Shap
   Recording const recording = recorded(simulate_joint(plan, 3));
   FilterOptions const filter = clean_filter();
   Section const section{};
-  StageSetting const setting{recording, regressor, filter, section, 8, 1, 1};
-  ModelStage const first = make_stage(setting, regressor).value();
-  JointModel model(regressor, first.reference(), {std::move(effect)});
-  return account_of(make_stage(setting, std::move(model)).value(), 0);
+  DecisionQuestion const question{{&recording, 1}, {}, regressor, filter, section};
+  JointDecision decision;
+  decision.rows = joint_strips(question);
+  DelayChoice const as_read{DelaySearch::given, 0.0, 0.0};
+  FittedModel const plain = fitted_model(decision.rows, regressor, {}, nullptr, as_read);
+  decision.final = fitted_model(decision.rows, regressor, {std::move(effect)}, plain.fitted.get(), as_read);
+  Eigen::MatrixXd const replicates = Eigen::MatrixXd::Zero(decision.final.fitted->residual().size(), 8);
+  return account_of(decision, mismatch_rows(decision.final, replicates), 0);
 }
 
 // within 0.3 rad a spring is gravity to a hundredth: whatever stiffness was fitted, the joint deviates by next to

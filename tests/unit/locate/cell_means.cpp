@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "unit/replicates/synthetic_rows.hpp"
+#include "unit/locate/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace cell_means_test {

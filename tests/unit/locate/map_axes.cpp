@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "unit/replicates/synthetic_rows.hpp"
+#include "unit/locate/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace map_axes_test {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/infer/locate/map_axes.hpp"
-#include "unit/replicates/synthetic_rows.hpp"
+#include "unit/locate/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace mismatch_map_test {

@@ -7,7 +7,7 @@
 
 #include "engine/infer/locate/map_axes.hpp"
 #include "engine/infer/locate/mismatch_map.hpp"
-#include "unit/replicates/synthetic_rows.hpp"
+#include "unit/locate/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace mismatch_map_null_test {

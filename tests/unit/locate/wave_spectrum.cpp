@@ -9,7 +9,7 @@
 #include "engine/infer/locate/map_axes.hpp"
 #include "engine/infer/locate/wave_cells.hpp"
 #include "support/decompositions.hpp"
-#include "unit/replicates/synthetic_rows.hpp"
+#include "unit/locate/synthetic_rows.hpp"
 
 namespace torquescope {
 namespace wave_spectrum_test {

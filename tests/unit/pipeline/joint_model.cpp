@@ -10,9 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/infer/pipeline/recorded_loop.hpp"
-#include "engine/infer/replicates/twin_batch.hpp"
-#include "unit/replicates/clean_records.hpp"
+#include "unit/pipeline/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;
@@ -154,73 +152,8 @@ TEST(JointModel, TellsEffectsOfTheTorqueTheLoadOfOtherJoints) {
   EXPECT_NEAR(told.scales.torque_highest, (motion().torque + recording.gear_load).maxCoeff(), 1e-12);
 }
 
-constexpr std::size_t twins = 48;
-constexpr Eigen::Index n_parameters = 5;
-
-struct Fits {
-  Eigen::MatrixXd all{static_cast<Eigen::Index>(twins), n_parameters};
-
-  Eigen::ArrayXd mean() const { return all.colwise().mean().transpose().array(); }
-  Eigen::ArrayXd std() const {
-    Eigen::MatrixXd const apart = all.rowwise() - all.colwise().mean();
-    return (apart.colwise().squaredNorm().transpose().array() / static_cast<double>(twins - 1)).sqrt();
-  }
-};
-
-// as identified from a recording of the same joint without the effect: controller and noise are the same
-TwinLoop const& loop() {
-  static TwinLoop const made = [] {
-    RecordedLoop const found = recorded_loop(simulated(0.0, 4), {baseline()[0]}, clean_filter());
-    EXPECT_EQ(found.source, LoopSource::identified) << found.remark;
-    return found.loop;
-  }();
-  return made;
-}
-
-// twins of a joint that follow the reference of a recording, each fitted with the model that has the effect
-Fits fits_of(Recording const& recording, TwinJoint const& joint, RecordPipeline const& pipeline) {
-  TwinTrack const track{recording.rate_hz, recording.reference, recording.position[0], 0.0, 100.0};
-  CleanTwin const twin(joint, loop(), track, 1e-4);
-  Fits fits;
-  for_each_twin(twin, pipeline, {17, 0, 0}, twins, 1, [&](VisitedTwin const& visited) {
-    ASSERT_FALSE(visited.ran_away);
-    fits.all.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;
-  });
-  return fits;
-}
-
 RecordPipeline pipeline_of(JointModel model, Recording const& recording) {
   return {std::move(model), clean_filter(), recording.rate_hz, recording.position.size()};
-}
-
-// processing biases least squares (encoder, hold, filter): by less than this of one fit's standard deviations
-constexpr double few_deviations = 3.0;
-
-TEST(JointModel, FitsBackWhatItsTwinsWereMadeWith) {
-  Recording const recording = simulated(stribeck_torque, 3);
-  JointModel const model = stribeck_model();
-  RecordPipeline const pipeline = pipeline_of(model, recording);
-  Eigen::VectorXd const truth = with(baseline(), stribeck_torque);
-  Fits const fits = fits_of(recording, model.twin_joint(truth), pipeline);
-  Eigen::ArrayXd const wrong = (fits.mean() - truth.array()) / fits.std();
-  for (Eigen::Index k = 0; k < n_parameters; ++k) {
-    EXPECT_LT(std::abs(wrong[k]), few_deviations) << k;
-    EXPECT_LT(fits.std()[k], 0.1 * std::abs(truth[k])) << k;  // else the line above says little
-  }
-  // the recording comes from a plant and a loop that know nothing of twins: one more draw
-  Eigen::ArrayXd const apart = (pipeline.process(recording).parameters.array() - fits.mean()) / fits.std();
-  EXPECT_LT(apart.abs().maxCoeff(), 4.0) << apart.transpose();
-}
-
-TEST(JointModel, FindsNothingInTwinsThatLackTheEffect) {
-  Recording const recording = simulated(0.0, 4);
-  RecordPipeline const pipeline = pipeline_of(stribeck_model(), recording);
-  Fits const fits = fits_of(recording, JointModel(clean_regressor()).twin_joint(baseline()), pipeline);
-  EXPECT_LT(std::abs(fits.mean()[4]), few_deviations * fits.std()[4]);
-  EXPECT_LT(std::abs(fits.mean()[4]), 0.1 * stribeck_torque);
-  // an effect of size 0 is none: the same joint, bit for bit in what is fitted up to rounding
-  Fits const none = fits_of(recording, stribeck_model().twin_joint(with(baseline(), 0.0)), pipeline);
-  EXPECT_LT((none.all - fits.all).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 // a Stribeck curve cannot be negative: where least squares would make it so, the fit is that of the baseline alone
@@ -230,41 +163,6 @@ TEST(JointModel, GivesNoNegativeValueToAParameterThatCannotHaveOne) {
   Eigen::VectorXd const alone = pipeline_of(JointModel(clean_regressor()), recording).process(recording).parameters;
   EXPECT_EQ(fit[4], 0.0);
   EXPECT_LT((fit.head(4) - alone).norm(), 1e-12 * alone.norm());
-}
-
-TEST(WavesInOrder, PutTheFundamentalBeforeItsHarmonics) {
-  auto const regressor = clean_regressor();
-  Effect const* error = find_effect("transmission_error");
-  JointModel const model(regressor, reference(),
-                         {{error, {48.0}}, shaped_stribeck(), {&cogging(), {7.0}}, {error, {24.0}}, {error, {72.0}}});
-  EXPECT_EQ(waves_in_order(model), (std::vector<std::size_t>{3, 0, 1, 2, 4}));
-  Effect const* friction = find_effect("position_dependent_friction");
-  JointModel const sharing(regressor, reference(), {{friction, {8.0}}, {friction, {4.0}}});
-  EXPECT_EQ(waves_in_order(sharing), (std::vector<std::size_t>{0, 1})) << "the first has the slope of both";
-}
-
-// two waves of friction along the travel have one slope between them
-TEST(JointModel, FitsAColumnThatTwoWavesShareOnce) {
-  auto joint = clean_joint();
-  joint.plan.plant = plant({{"inertia", 0.036},
-                            {"viscous", 0.164},
-                            {"coulomb", coulomb},
-                            {"offset", -0.125},
-                            {"position_friction_slope", 0.1},
-                            {"position_friction_cos", 0.2},
-                            {"position_friction_sin", -0.1},
-                            {"position_friction_order", 4.0}});
-  Recording const recording = recorded(simulate_joint(joint.plan, 6));
-  Effect const* friction = find_effect("position_dependent_friction");
-  JointModel const model(clean_regressor(), reference(), {{friction, {4.0}}, {friction, {8.0}}});
-  Eigen::VectorXd const fit = pipeline_of(model, recording).process(recording).parameters;
-  ASSERT_EQ(fit.size(), 10);
-  EXPECT_NEAR(fit[4], 0.1, 0.02);
-  EXPECT_NEAR(fit[5], 0.2, 0.02);
-  EXPECT_NEAR(fit[6], -0.1, 0.02);
-  EXPECT_EQ(fit[7], 0.0);
-  EXPECT_NEAR(fit[8], 0.0, 0.02);
-  EXPECT_NEAR(fit[9], 0.0, 0.02);
 }
 
 }  // namespace joint_model_test

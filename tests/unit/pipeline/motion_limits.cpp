@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/infer/pipeline/shared_constants.hpp"
-#include "unit/replicates/clean_records.hpp"
+#include "unit/pipeline/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

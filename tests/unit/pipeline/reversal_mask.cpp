@@ -9,7 +9,6 @@
 #include <numbers>
 
 using torquescope::moving_samples;
-using torquescope::resting_samples;
 
 namespace reversal_mask_test {
 
@@ -74,36 +73,6 @@ TEST(ReversalMask, DropsTheRestRoundOneShortMove) {
 TEST(ReversalMask, DropsAJointThatNeverMoves) {
   auto const moving = moving_samples(Eigen::VectorXd::Zero(100), rate_hz, 0.0);
   EXPECT_EQ(std::count(moving.begin(), moving.end(), true), 0);
-}
-
-TEST(ReversalMask, WithReversalsKeepsASineWhole) {
-  auto const kept = torquescope::samples_without_rest(sine(), rate_hz, 40.0);
-  EXPECT_EQ(std::count(kept.begin(), kept.end(), false), 0);
-}
-
-TEST(ReversalMask, WithReversalsDropsARestAndAsMuchRoundIt) {
-  Eigen::VectorXd dq = Eigen::VectorXd::Ones(1000);
-  dq.segment(400, 100).setZero();
-  dq.tail(500).setConstant(-1.0);
-  // 1.6 periods of 40 Hz are 40 samples
-  auto const kept = torquescope::samples_without_rest(dq, rate_hz, 40.0);
-  for (std::size_t k = 0; k < kept.size(); ++k) EXPECT_EQ(kept[k], k < 360 || k >= 540) << k;
-}
-
-TEST(RestingSamples, AreTheRestItselfAndNoTurn) {
-  auto dq = std::vector<double>(400, 1.0);
-  std::fill(dq.begin() + 100, dq.begin() + 200, 0.001);
-  std::fill(dq.begin() + 300, dq.end(), -1.0);
-  auto const rest =
-      resting_samples(Eigen::Map<Eigen::VectorXd>(dq.data(), static_cast<Eigen::Index>(dq.size())), 1000.0, 50.0);
-  for (std::size_t k = 0; k < rest.size(); ++k) EXPECT_EQ(rest[k], k >= 100 && k < 200) << k;
-}
-
-TEST(ReversalMask, WithReversalsKeepsARestThatIsShort) {
-  Eigen::VectorXd dq = Eigen::VectorXd::Ones(1000);
-  dq.segment(400, 40).setZero();
-  auto const kept = torquescope::samples_without_rest(dq, rate_hz, 40.0);
-  EXPECT_EQ(std::count(kept.begin(), kept.end(), false), 0);
 }
 
 }  // namespace reversal_mask_test

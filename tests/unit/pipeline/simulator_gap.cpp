@@ -8,7 +8,7 @@
 
 #include "engine/infer/pipeline/held_torque.hpp"
 #include "support/decompositions.hpp"
-#include "unit/replicates/clean_records.hpp"
+#include "unit/pipeline/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;
@@ -137,7 +137,7 @@ TEST(SimulatorGap, KeepsWhatPassesTheGearAsItsLoad) {
   // what the terms take of a spring on this motion is in their own load; both as the rows see them, low-passed
   auto const record = pipeline.process(recording);
   Eigen::VectorXd const load =
-      pipeline.filtered(gap.recording.gear_load + gap.simulator_parameters[0] * record.motion->ddq, record);
+      pipeline.filtered(gap.recording.gear_load + gap.simulator_parameters[0] * record.motion.ddq, record);
   Eigen::VectorXd const whole = pipeline.filtered(truth[0] * motion.ddq + 0.4 * motion.q, record);
   // a mean is friction of one direction more than of the other, as far as anybody can tell
   auto const about_mean = [](Eigen::VectorXd const& signal) -> Eigen::VectorXd {

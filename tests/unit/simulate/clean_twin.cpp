@@ -108,9 +108,8 @@ TEST(CleanTwin, DrawsAStickingLawForEveryLaneWhereItIsUnknown) {
   loop.torque_noise = white(0.0);
   loop.encoder_step = 0.0;
   CleanTwin const exact(held.joint(), loop, held.track(), held.step_s());
-  loop.sticking = sticking_range(encoder_step);
+  loop.sticking = {1e-4, 2e-2, 3.0 * encoder_step};
   CleanTwin const drawn(held.joint(), loop, held.track(), held.step_s());
-  EXPECT_FALSE(noiseless(loop).sticking.is_any());
   TwinGroup at_once, group, again;
   exact.simulate({1, 0, 0}, 3, at_once);
   drawn.simulate({1, 0, 0}, 3, group);
@@ -301,7 +300,9 @@ TEST(TrackingLaw, FollowsAMotionThatHasNoReference) {
 TEST(CleanTwin, FeedsForwardWhatItsLawSays) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   auto const plain = twin_of(recording);
-  TwinLoop quiet = noiseless(plain.loop());
+  TwinLoop quiet = plain.loop();
+  quiet.torque_noise = quiet.slow_torque_noise = white(0.0);
+  quiet.disturbance_std = quiet.position_noise_std = quiet.friction_wander = quiet.encoder_step = 0.0;
   quiet.law.position.assign(1, 0.0);
   quiet.law.reference.clear();
   quiet.law.integral = quiet.law.constant = 0.0;

@@ -209,51 +209,5 @@ TEST(OrthonormalBasis, HasOneColumnPerDirectionWhateverTheirLengths) {
   for (Eigen::Index k = 0; k < 4; ++k) EXPECT_LT(outside.col(k).norm() / columns.col(k).norm(), rounding) << k;
 }
 
-// every parameter at its lower bound, at its upper one, or free: the best of all these that keeps its bounds
-double best_in_box(Eigen::MatrixXd const& x, Eigen::VectorXd const& y, double lower, double upper) {
-  Eigen::Index const width = x.cols();
-  auto const choices = static_cast<int>(std::pow(3.0, static_cast<double>(width)));
-  double most = -std::numeric_limits<double>::infinity();
-  for (int choice = 0; choice < choices; ++choice) {
-    Eigen::VectorXd theta = Eigen::VectorXd::Zero(width);
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index k = 0, digits = choice; k < width; ++k, digits /= 3) {
-      if (digits % 3 == 0)
-        free.push_back(k);
-      else
-        theta[k] = digits % 3 == 1 ? lower : upper;
-    }
-    if (!free.empty()) theta(free) = test::least_squares(x(Eigen::all, free), y - x * theta);
-    if ((theta.array() < lower - rounding).any() || (theta.array() > upper + rounding).any()) continue;
-    most = std::max(most, y.squaredNorm() - (y - x * theta).squaredNorm());
-  }
-  return most;
-}
-
-TEST(BoxedGain, IsTheMostThatParametersInTheBoxExplain) {
-  for (std::uint32_t set = 0; set < 40; ++set) {
-    Problem problem = random_problem(set);
-    problem.non_negative.assign(problem.non_negative.size(), false);
-    auto const group = problem.group();
-    Eigen::MatrixXd const basis = problem.nuisance();
-    Eigen::MatrixXd const x = problem.columns - basis * (basis.transpose() * problem.columns);
-    Eigen::VectorXd const y = problem.y - basis * (basis.transpose() * problem.y);
-    double const lower = -0.05, upper = 0.1;
-    Eigen::VectorXd const least = Eigen::VectorXd::Constant(x.cols(), lower), most = -2.0 * least;
-    auto const found = boxed_gain(group, group.q.transpose() * y, least, most);
-    EXPECT_NEAR(found.gain, best_in_box(x, y, lower, upper), 1e-7) << set;
-    EXPECT_TRUE((found.parameters.array() >= lower).all() && (found.parameters.array() <= upper).all()) << set;
-  }
-}
-
-TEST(BoxedGain, IsTheFreeOneInsideAWideBox) {
-  Problem problem = random_problem(7);
-  problem.non_negative.assign(problem.non_negative.size(), false);
-  auto const group = problem.group();
-  Eigen::VectorXd const c = group.q.transpose() * problem.y,
-                        wide = Eigen::VectorXd::Constant(problem.columns.cols(), 1e9);
-  EXPECT_EQ(boxed_gain(group, c, -wide, wide).gain, bounded_gain(group, c).gain);
-}
-
 }  // namespace bounded_projection_test
 }  // namespace torquescope

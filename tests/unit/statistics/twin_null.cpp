@@ -37,30 +37,6 @@ TEST(EmpiricalP, IsUniformWhenTheDataIsATwin) {
   EXPECT_NEAR(rejected, 100.0, 5 * std::sqrt(2000 * 0.05 * 0.95));
 }
 
-TEST(TailP, EqualsTheCountWhereTheCountIsGood) {
-  auto const twins = normals(400, 1);
-  for (double data : {-1.0, 0.0, 1.0}) EXPECT_EQ(tail_p(data, twins), empirical_p(data, twins));
-}
-
-TEST(TailP, NeedsTwoHundredTwins) {
-  auto const twins = normals(199, 2);
-  EXPECT_EQ(tail_p(50.0, twins), 1.0 / 200.0);
-  EXPECT_LT(tail_p(50.0, normals(200, 2)), 1e-9);
-}
-
-TEST(TailP, IsTheExponentialLawForExponentialTwins) {
-  std::vector<double> twins(4000);
-  for (std::size_t i = 0; i < twins.size(); ++i)
-    twins[i] = -std::log(1.0 - (static_cast<double>(i) + 0.5) / 4000.0);  // exact quantiles
-  for (double data : {7.0, 9.0, 12.0}) EXPECT_NEAR(tail_p(data, twins) / std::exp(-data), 1.0, 0.1);
-}
-
-TEST(TailP, IsConservativeForNormalTwins) {
-  // the normal tail falls faster than the exponential that is fitted to its upper quarter
-  double const z = 4.5, exact = 0.5 * std::erfc(z / std::sqrt(2.0));
-  for (std::uint32_t set = 0; set < 20; ++set) EXPECT_GT(tail_p(z, normals(400, 100 + set)), exact);
-}
-
 TEST(TwinZ, WidensForTheMeanBeingEstimated) {
   std::vector<double> const twins{-1.0, 1.0};  // mean 0, variance 2
   EXPECT_DOUBLE_EQ(twin_z(3.0, twins), 3.0 / std::sqrt(2.0 * 1.5));

@@ -9,7 +9,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/store/file_seal.hpp"
-#include "engine/store/number_file.hpp"
 #include "engine/store/result_writer.hpp"
 #include "engine/store/shard_lock.hpp"
 #include "engine/store/temp_file.hpp"
@@ -57,9 +56,7 @@ class RemoveSegments : public testing::Test {
 
 TEST_F(RemoveSegments, TakesThoseOfTheJobAndWhatTheDeadLeft) {
   write_sealed(parts_ / "shard-0000-of-0001.a.h5", "job");
-  write_number_file(parts_ / "c.twins", {job_identity("job", Keeps::work), {}}, std::vector<double>{1.0});
-  for (auto const* name : {"R.h5.parts/shard-0.h5.tmp.12", "R.h5.parts/batch-0001.twins.tmp.3.1",
-                           "R.h5.parts/c.twins.lock", "R.h5.parts/shard-0000-of-0001.lock"})
+  for (auto const* name : {"R.h5.parts/shard-0.h5.tmp.12", "R.h5.parts/shard-0000-of-0001.lock"})
     folder_.write(name, "");
   folder_.write("R.h5.parts/shard-0001-of-0002.lock", "process 12 on node7");
   folder_.write("R.h5.parts/shard-0002-of-0003.lock", std::string(19, '\0'));  // its power went
@@ -81,16 +78,15 @@ TEST_F(RemoveSegments, LeavesWhateverDoesNotSayThatItIsOfTheJob) {
   write_sealed(parts_ / "copy.h5", "job", Keeps::result);
   write_sealed(folder_ / "elsewhere.h5", "job");
   fs::create_symlink("../elsewhere.h5", parts_ / "shard-0000-of-0001.link.h5");
-  write_number_file(parts_ / "other.twins", {job_identity("another job", Keeps::work), {}}, std::vector<double>{1.0});
-  std::vector<std::string> const written{"notmine.h5",    "batch-0001.twins", "notes.txt",
-                                         "notes.tmp.txt", "mine.h5.tmp.12",   "shard-0000-of-0001.lock"};
+  std::vector<std::string> const written{"notmine.h5", "notes.txt", "notes.tmp.txt", "mine.h5.tmp.12",
+                                         "shard-0000-of-0001.lock"};
   for (auto const& name : written) folder_.write("R.h5.parts/" + name, "my own words");
   auto const n_before = std::distance(fs::directory_iterator(parts_), {});
   auto const warnings = remove_segments(result_, "job");
   EXPECT_EQ(std::distance(fs::directory_iterator(parts_), {}), n_before);
   EXPECT_TRUE(fs::exists(folder_ / "elsewhere.h5"));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("7 of the files"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("5 of the files"), std::string::npos) << warnings[0];
   remove_segments(result_, "");
   EXPECT_EQ(std::distance(fs::directory_iterator(parts_), {}), n_before) << "of no job";
 }

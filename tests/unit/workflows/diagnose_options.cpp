@@ -41,7 +41,6 @@ TEST(DiagnoseOptions, ADiagnosisNeedsNoEstimatorAndNoSection) {
   EXPECT_EQ(options.twins, 200);
   EXPECT_EQ(options.q, 0.05);
   EXPECT_EQ(options.max_effects, 5);
-  EXPECT_EQ(options.shape_optimiser, "de");
   EXPECT_THAT(experiment.diagnose_line(), HasSubstr("1 joint, 4 parameters; "));
   EXPECT_THAT(experiment.diagnose_line(), HasSubstr(" effects, 200 replicates"));
 }
@@ -94,18 +93,13 @@ TEST(DiagnoseOptions, NamedEffectsKeepTheirOrder) {
   EXPECT_EQ(experiment.parts().diagnose.twins, 60);
 }
 
-TEST(DiagnoseOptions, ShapesAreSearchedByAnyOptimiserOfTheRegistry) {
-  for (auto const& choice : optimiser_choices()) {
-    Experiment const experiment = load("[diagnose]\nshape_optimiser = \"" + choice.name + "\"\n", Purpose::diagnose);
-    EXPECT_EQ(experiment.parts().diagnose.shape_optimiser, choice.name);
-  }
-  auto const unknown = problems_of("[diagnose]\nshape_optimiser = \"fad\"\n", Purpose::diagnose);
-  ASSERT_THAT(unknown, SizeIs(1));
-  EXPECT_EQ(unknown[0].what, "shape_optimiser = \"fad\" is not one of its words");
-  EXPECT_EQ(unknown[0].caret_note, "did you mean \"fade\"?");
-  EXPECT_EQ(unknown[0].place.line, 2);
-  // least squares estimates, it does not search
-  EXPECT_THAT(problems_of("[diagnose]\nshape_optimiser = \"ols\"\n", Purpose::diagnose), SizeIs(1));
+TEST(DiagnoseOptions, KeysOfEarlierProgramsSayWhatToDo) {
+  auto const gone = problems_of("[diagnose]\nreversals = \"mask\"\nnull = \"hac\"\n", Purpose::diagnose);
+  ASSERT_THAT(gone, SizeIs(2));
+  EXPECT_EQ(gone[0].what, "key \"reversals\" of [diagnose] is gone");
+  EXPECT_EQ(gone[0].place.line, 2);
+  EXPECT_THAT(gone[0].help, HasSubstr("all samples"));
+  EXPECT_THAT(gone[1].help, HasSubstr("[diagnose.levels]"));
 }
 
 TEST(DiagnoseOptions, RefusesNamesThatMeanNothingHereWithTheirPlace) {
@@ -118,25 +112,28 @@ TEST(DiagnoseOptions, RefusesNamesThatMeanNothingHereWithTheirPlace) {
   EXPECT_THAT(problems_of("[diagnose]\neffects = [\"stribeck\", \"stribeck\"]\n", Purpose::diagnose), SizeIs(1));
   EXPECT_THAT(problems_of("[diagnose]\neffects = [\"viscous\"]\n", Purpose::diagnose), SizeIs(1));
   EXPECT_THAT(problems_of("[diagnose]\neffects = []\n", Purpose::diagnose), SizeIs(1));
-  EXPECT_THAT(problems_of("[diagnose]\ntwins = 59\nq = 0.6\n", Purpose::diagnose), SizeIs(2));
+  EXPECT_THAT(problems_of("[diagnose]\ntwins = 19\nq = 0.6\n", Purpose::diagnose), SizeIs(2));
   // told by every command, also where nothing is diagnosed
   EXPECT_THAT(problems_of("[diagnose]\ntwinz = 100\n[[estimator]]\nname = \"ols\"\n", Purpose::identify), SizeIs(1));
 }
 
 TEST(DiagnoseOptions, AnAblationIsReadAndWarnedAbout) {
-  Experiment const whole = load("[diagnose]\nnull = \"twins\"\ntwin_noise = 1\n", Purpose::diagnose);
-  EXPECT_THAT(whole.parts().diagnose.ablations(), SizeIs(0));
+  Experiment const whole = load("[diagnose.levels]\nbeam = 3\n", Purpose::diagnose);
+  EXPECT_THAT(whole.parts().levels.changed(), SizeIs(0));
   EXPECT_THAT(whole.warnings(), ::testing::Not(::testing::Contains(HasSubstr("ablation"))));
   Experiment const experiment =
-      load("[diagnose]\nnull = \"hac\"\nindirect_inference = false\ntwin_noise = 0.5\n", Purpose::diagnose);
-  EXPECT_EQ(experiment.parts().diagnose.ablations(),
-            (std::vector<std::string>{"null = \"hac\"", "indirect_inference = false", "twin_noise = 0.5"}));
-  EXPECT_THAT(experiment.warnings(), ::testing::Contains(HasSubstr("an ablation (null = \"hac\"")));
+      load("[diagnose]\nq = 0.02\n[diagnose.levels]\nbeam = 1\nsticking_odds = 1.5\n", Purpose::diagnose);
+  EXPECT_EQ(experiment.parts().levels.changed(), (std::vector<std::string>{"sticking_odds = 1.5", "beam = 1"}));
+  EXPECT_THAT(experiment.warnings(), ::testing::Contains(HasSubstr("an ablation (sticking_odds = 1.5, beam = 1)")));
   bool is_checked = false;
   for (auto const& line : experiment.check(1))
     is_checked |= line.level == CheckLine::Level::warn && line.text.find("ablation") != std::string::npos;
   EXPECT_TRUE(is_checked);
-  EXPECT_THAT(problems_of("[diagnose]\nnull = \"normal\"\ntwin_noise = 0\n", Purpose::diagnose), SizeIs(2));
+  DecisionNumbers const numbers = decision_numbers(experiment.parts().diagnose, experiment.parts().levels);
+  EXPECT_EQ(numbers.alpha, 0.02);
+  EXPECT_EQ(numbers.beam, 1);
+  EXPECT_EQ(numbers.replicates, 48) << "twins = 200 is an upper bound";
+  EXPECT_THAT(problems_of("[diagnose.levels]\nbeams = 1\nbeam = 0\n", Purpose::diagnose), SizeIs(2));
 }
 
 }  // namespace diagnose_options_test
