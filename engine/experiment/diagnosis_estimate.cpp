@@ -9,7 +9,6 @@
 
 #include "engine/base/quantity_text.hpp"
 #include "engine/data/filter_checks.hpp"
-#include "engine/data/filter_suggestion.hpp"
 #include "engine/experiment/experiment_parts.hpp"
 
 namespace torquescope {
@@ -17,8 +16,10 @@ namespace torquescope {
 namespace {
 
 // measured, one effect found (tests/unit/workflows/diagnosis_estimate.cpp)
-constexpr double cpu_s_per_sample = 5e-4, cpu_s_per_row_replicate = 5e-6, most_cores_used = 8.0;
-constexpr double bytes_at_least = 3e7, bytes_per_sample = 1400.0, bytes_per_row_replicate = 48.0;
+constexpr double cpu_s_per_sample = 2e-3, cpu_s_per_row_replicate = 7e-4, most_cores_used = 8.0;
+constexpr double bytes_at_least = 3e7, bytes_per_sample = 1400.0, bytes_per_row_replicate = 600.0;
+// rows a second for each Hz of the parallel cut-off (all_rows/strip.cpp)
+constexpr double rows_per_cutoff = 2.56;
 // from here on fewer rows are worth a word
 constexpr double many_rows = 3e4;
 
@@ -41,18 +42,23 @@ std::string rough_count(double count) {
   return count < 1e5 ? fmt::format("{:.0f}", count) : two_digits(count / 1e6) + " million";
 }
 
+// so many that a name can come out
+double replicates_of(Experiment::Parts const& parts) {
+  DecisionNumbers numbers = decision_numbers(parts.diagnose, parts.levels);
+  numbers.alpha = numbers.alpha_of_joint(parts.joints());
+  return std::max(static_cast<double>(numbers.replicates), std::ceil(1.0 / numbers.correction_alpha()));
+}
+
 }  // namespace
 
 DiagnosisSize diagnosis_size(Experiment::Parts const& parts) {
   DiagnosisSize size;
-  auto const& filter = parts.filter;
-  size.samples = static_cast<double>(parts.train.n_samples.front());  // further ones are predicted, not fitted
-  double const rate_hz = parts.train.recordings.front().rate_hz;
-  double const kept_hz = filter.decimate_to_hz > 0.0 ? filter.decimate_to_hz : rate_hz;
-  size.rows = size.samples * std::min(1.0, kept_hz / rate_hz);
-  size.replicates = static_cast<double>(parts.diagnose.twins);
+  size.samples = samples_in(parts.train);
+  double const rate_hz = parts.train.recordings.front().rate_hz, cutoff_hz = parallel_cutoff_of(parts.filter);
+  size.rows = cutoff_hz > 0.0 ? size.samples * std::min(1.0, rows_per_cutoff * cutoff_hz / rate_hz) : size.samples;
+  size.replicates = replicates_of(parts);
   size.joints = static_cast<double>(parts.joints());
-  size.unseen_samples = samples_in(parts.train) - size.samples + (parts.validate ? samples_in(*parts.validate) : 0.0);
+  size.unseen_samples = parts.validate ? samples_in(*parts.validate) : 0.0;
   return size;
 }
 
@@ -70,28 +76,10 @@ std::string estimate_words(DiagnosisSize const& size, DiagnosisEstimate const& e
                      size.replicates, joints, rough_seconds(estimate.seconds), rough_bytes(estimate.bytes));
 }
 
-std::optional<std::string> decimation_proposal(Experiment::Parts const& parts, int threads) {
-  DiagnosisSize size = diagnosis_size(parts);
-  if (size.rows < many_rows) return std::nullopt;
-  double const rate_hz = parts.train.recordings.front().rate_hz;
-  double cutoff_hz = parallel_cutoff_of(parts.filter);
-  bool const has_cutoff = cutoff_hz > 0.0;
-  if (!has_cutoff && parts.filter.cutoff_hz > 0.0) cutoff_hz = parts.filter.cutoff_hz / 2.0;
-  if (!(cutoff_hz > 0.0)) {
-    return "many rows: [filter] cutoff_hz, parallel_cutoff_hz and decimate_to_hz make them fewer; torquescope init "
-           "writes values that suit the recording";
-  }
-  double const proposed_hz = suggested_kept_rate(rate_hz, cutoff_hz);
-  double const now_hz = parts.filter.decimate_to_hz > 0.0 ? parts.filter.decimate_to_hz : rate_hz;
-  constexpr double worth_it = 0.7;
-  if (!(proposed_hz > 0.0) || proposed_hz > worth_it * now_hz) return std::nullopt;
-  size.rows *= proposed_hz / now_hz;
-  DiagnosisEstimate const then = estimate_diagnosis(size, threads);
-  std::string const cutoff = has_cutoff ? "" : fmt::format("parallel_cutoff_hz = {:g} and ", cutoff_hz);
-  return fmt::format(
-      "{}decimate_to_hz = {:g} in [filter] would keep {} of these rows, which is all that a cut-off of "
-      "{:g} Hz leaves to see: about {} and {}",
-      cutoff, proposed_hz, rough_count(size.rows), cutoff_hz, rough_seconds(then.seconds), rough_bytes(then.bytes));
+std::optional<std::string> many_rows_warning(Experiment::Parts const& parts) {
+  if (diagnosis_size(parts).rows < many_rows) return std::nullopt;
+  return "many rows: a lower parallel_cutoff_hz in [filter] makes them fewer; torquescope init writes values that suit "
+         "the recording";
 }
 
 }  // namespace torquescope

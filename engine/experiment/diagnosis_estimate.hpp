@@ -1,9 +1,8 @@
 #pragma once
-// What a diagnosis will take, told before it begins, and the decimation that would make a long one short.
+// What a diagnosis will take, told before it begins.
 //
 // Equation   seconds = joints (a samples + b rows replicates) / cores used;  bytes = c + d samples + e rows replicates
-// Shapes     samples: of all recordings at their own rate; rows: of the training recording that the fit keeps, before
-//            the mask near reversals
+// Shapes     samples: of all recordings at their own rate; rows: of training that a decision looks at
 // Accuracy   within a factor of three for one or two effects; every further one repeats the search
 // Source     measured: tests/unit/workflows/diagnosis_estimate.cpp has the table
 // Threads    plain functions
@@ -33,8 +32,7 @@ DiagnosisEstimate estimate_diagnosis(DiagnosisSize const& size, int threads);
 // "100 000 rows x 200 replicates: about 3 min and 1.1 GB"
 std::string estimate_words(DiagnosisSize const& size, DiagnosisEstimate const& estimate);
 
-// for a recording of many rows that can do with fewer: "decimate_to_hz = 50 in [filter] keeps 10 000 of the rows (about
-// 20 s and 90 MB): ..."; nothing where the rows are few, or no lower rate suits the cut-offs
-std::optional<std::string> decimation_proposal(Experiment::Parts const& parts, int threads);
+// for recordings of many rows
+std::optional<std::string> many_rows_warning(Experiment::Parts const& parts);
 
 }  // namespace torquescope

@@ -321,7 +321,7 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   if (parts_->job.find("diagnose") != nullptr || parts_->estimators.empty()) {
     auto const size = diagnosis_size(*parts_);
     lines.push_back({Level::ok, "diagnosis", estimate_words(size, estimate_diagnosis(size, threads))});
-    if (auto const fewer = decimation_proposal(*parts_, threads)) lines.push_back({Level::note, "diagnosis", *fewer});
+    if (auto const fewer = many_rows_warning(*parts_)) lines.push_back({Level::note, "diagnosis", *fewer});
   }
   if (std::string const words = ablation_words(parts_->levels); !words.empty())
     lines.push_back({Level::warn, "diagnosis", words});

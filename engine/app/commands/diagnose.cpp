@@ -223,7 +223,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   DiagnosisEstimate const estimate = estimate_diagnosis(size, request.threads.count);
   request.expected_seconds = estimate.seconds;
   session.note(session.topic_line("size", estimate_words(size, estimate)));
-  if (auto const fewer = decimation_proposal(experiment.parts(), request.threads.count))
+  if (auto const fewer = many_rows_warning(experiment.parts()))
     session.note(session.topic_line("warning", *fewer));
   Diagnosis const diagnosis = [&] {
     SessionProgress print_progress(session);
