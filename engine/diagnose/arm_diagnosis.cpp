@@ -87,9 +87,9 @@ class ArmWork {
   // whether any were found
   bool take_laws_of_whole_arm() {
     if (progress_) progress_("whole arm", 0, 1);
-    answers_.push_back(laws_of_whole_arm(input_, arm_.files, arm_.rows, arm_.noise(), input_.numbers));
+    answers_.push_back(laws_of_whole_arm(input_, {arm_.laws, arm_.rows, arm_.noise()}));
     auto const& accepted = answers_.back().accepted;
-    if (!accepted.empty()) arm_ = learnt_arm(input_, without_laws(arm_.files, accepted), filter_);
+    if (!accepted.empty()) arm_ = learnt_arm(input_, without_laws(input_, arm_.files, filter_, accepted), filter_);
     if (progress_) progress_("whole arm", 1, 1);
     return !accepted.empty();
   }
@@ -163,7 +163,7 @@ class ArmWork {
       rows.laws.push_back(made.facts.accepted[i].effect);
     }
     decided_[j] = std::move(rows);
-    arm_.rows[j] = rows_for_whole_arm(arm_.files, made.rows, made.final, law, j);
+    arm_.rows[j] = rows_for_whole_arm(arm_, made.rows, made.final, law, j);
   }
 
   // of all joints that were decided, as named; one of them with other rows

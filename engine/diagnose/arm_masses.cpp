@@ -16,15 +16,14 @@ struct MassesOfJoint {
   std::optional<ArmRowsOfJoint> rows{};
 };
 
-MassesOfJoint masses_of_joint(ArmDiagnosisInput const& input, ArmFiles const& files,
-                              std::vector<Recording> const& recordings, std::size_t joint) {
+MassesOfJoint masses_of_joint(ArmDiagnosisInput const& input, LearntArm const& arm, std::size_t joint) {
   MassesOfJoint told{SharedInformation::none(static_cast<Eigen::Index>(input.model.size())), 1.0, {}};
   verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
     auto const term = rigid_term(rigid_rows_name, std::ssize(rigid_parameters(input.model, joint)));
     Regressor const regressor = own_terms(input.model, joint).beside(*term);
-    std::span<Recording const> const all = recordings;
-    DecisionQuestion const question{all.first(files.training), all.subspan(files.training), regressor, input.filter,
-                                    input.filter_section};
+    std::span<Recording const> const all = arm.recordings[joint];
+    DecisionQuestion const question{all.first(arm.files.training), all.subspan(arm.files.training), regressor,
+                                    input.filter, input.filter_section};
     JointStrips const strips = joint_strips(question);
     FittedModel const free =
         fitted_model(strips, regressor, {}, nullptr, {DelaySearch::everywhere, question.numbers.longest_delay_s});
@@ -32,7 +31,7 @@ MassesOfJoint masses_of_joint(ArmDiagnosisInput const& input, ArmFiles const& fi
     SharedRows const rows = shared_rows(*free.fitted, law);
     told.variance = independent_variance(rows);
     told.information = information_of(rows, told.variance);
-    told.rows = rows_for_whole_arm(files, strips, free, law, joint);
+    told.rows = rows_for_whole_arm(arm, strips, free, law, joint);
     return std::nullopt;
   });
   return told;
@@ -44,10 +43,10 @@ SharedLaw shared_masses(ArmModel const& model, std::size_t joint, char const* in
   return {rigid_rows_name, instead_of, rigid_parameters(model, joint), static_cast<Eigen::Index>(model.size())};
 }
 
-std::optional<ArmRowsOfJoint> rows_for_whole_arm(ArmFiles const& files, JointStrips const& strips,
+std::optional<ArmRowsOfJoint> rows_for_whole_arm(LearntArm const& arm, JointStrips const& strips,
                                                  FittedModel const& model, SharedLaw const& law, std::size_t joint) {
-  if (files.law_columns() == 0) return std::nullopt;
-  return rows_of_joint({joint, strips, model, law, files.begins_s(joint)}, files.law_columns());
+  if (arm.laws.empty()) return std::nullopt;
+  return rows_of_joint({joint, strips, model, law, arm.files.begins_s(joint)}, law_columns(arm.laws));
 }
 
 Eigen::VectorXd LearntArm::noise() const {
@@ -59,10 +58,12 @@ LearntArm learnt_arm(ArmDiagnosisInput const& input, std::vector<RecordedArm> ar
   LearntArm arm;
   arm.files = arm_files(input, std::move(arms), filter);
   arm.recordings.resize(joints);
-  for (auto& file : joints_of(arm.files, input.model, filter))
+  JointsOfArm alone = joints_of(arm.files, input.model, filter, input.threads);
+  arm.laws = std::move(alone.laws);
+  for (auto& file : alone.files)
     for (std::size_t j = 0; j < joints; ++j) arm.recordings[j].push_back(std::move(file[j]));
   for (std::size_t j = 0; j < joints; ++j) {
-    MassesOfJoint told = masses_of_joint(input, arm.files, arm.recordings[j], j);
+    MassesOfJoint told = masses_of_joint(input, arm, j);
     arm.information.push_back(std::move(told.information));
     arm.variances.push_back(told.variance);
     arm.rows.push_back(std::move(told.rows));

@@ -17,6 +17,7 @@ SharedLaw shared_masses(ArmModel const& model, std::size_t joint, char const* in
 // the joints of an arm before anything is known of what they lack
 struct LearntArm {
   ArmFiles files{};
+  std::vector<LawPlace> laws{};                       // of the whole arm, in the recordings
   std::vector<std::vector<Recording>> recordings{};   // [N][file], with their columns
   std::vector<SharedInformation> information{};       // [N]
   std::vector<double> variances{};                    // [N]
@@ -27,8 +28,8 @@ struct LearntArm {
 // arms: those of training first
 LearntArm learnt_arm(ArmDiagnosisInput const& input, std::vector<RecordedArm> arms, ArmFilter const& filter);
 
-// of a decided joint, where laws of the whole arm are asked for
-std::optional<ArmRowsOfJoint> rows_for_whole_arm(ArmFiles const& files, JointStrips const& strips,
+// of a decided joint; none where no law of the whole arm is asked for
+std::optional<ArmRowsOfJoint> rows_for_whole_arm(LearntArm const& arm, JointStrips const& strips,
                                                  FittedModel const& model, SharedLaw const& law, std::size_t joint);
 
 }  // namespace torquescope

@@ -23,61 +23,57 @@ std::vector<double> ArmFiles::begins_s(std::size_t joint) const {
   return begins;
 }
 
-Eigen::Index ArmFiles::law_columns() const {
-  return torquescope::law_columns(law_places(laws.empty() ? std::vector<WholeArmLaw>{} : laws.front()));
-}
-
 ArmFiles arm_files(ArmDiagnosisInput const& input, std::vector<RecordedArm> arms, ArmFilter const& filter) {
-  ArmFiles files{std::move(arms), input.train.size(), {}};
-  std::vector<Effect const*> wanted;
+  ArmFiles files{std::move(arms), input.train.size(), {}, {}};
   for (auto const* effect : input.candidates.front())
-    if (effect->is_of_whole_arm()) wanted.push_back(effect);
-  if (wanted.empty()) return files;
-  // laws are those of an arm with these masses
-  auto const parameters = fit_parameters(input.model, std::span(files.arms).first(files.training), filter).parameters;
-  for (auto const& arm : files.arms)
-    files.laws.push_back(whole_arm_laws(input.model, parameters, motion_of(arm, filter), wanted, input.threads));
+    if (effect->is_of_whole_arm()) files.wanted.push_back(effect);
+  if (files.wanted.empty()) return files;
+  files.parameters = fit_parameters(input.model, std::span(files.arms).first(files.training), filter).parameters;
   return files;
 }
 
-std::vector<std::vector<Recording>> joints_of(ArmFiles const& files, ArmModel const& model, ArmFilter const& filter) {
-  std::vector<std::vector<Recording>> all;
-  for (std::size_t k = 0; k < files.arms.size(); ++k) {
-    auto joints = joints_with_rigid_rows(model, files.arms[k], filter);
-    if (!files.laws.empty()) give_whole_arm_laws(joints, files.laws[k]);
+JointsOfArm joints_of(ArmFiles const& files, ArmModel const& model, ArmFilter const& filter, int threads) {
+  JointsOfArm all;
+  for (auto const& arm : files.arms) {
+    auto joints = joints_with_rigid_rows(model, arm, filter);
+    if (!files.wanted.empty()) {
+      auto const laws = whole_arm_laws(model, files.parameters, motion_of(arm, filter), files.wanted, threads);
+      all.laws = law_places(laws);
+      give_whole_arm_laws(joints, laws);
+    }
     for (auto& joint : joints) joint = from_zero(std::move(joint));
-    all.push_back(std::move(joints));
+    all.files.push_back(std::move(joints));
   }
   return all;
 }
 
-WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, ArmFiles const& files,
-                                 std::vector<std::optional<ArmRowsOfJoint>> const& rows, Eigen::VectorXd const& noise,
-                                 DecisionNumbers numbers) {
-  if (files.laws.empty()) return {};
-  auto const places = law_places(files.laws.front());
+WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, RowsOfArm const& of) {
+  if (of.laws.empty()) return {};
   std::vector<RowsOfJoint const*> training;
-  std::vector<std::vector<RowsOfJoint const*>> unseen(files.arms.size() - files.training);
+  std::vector<std::vector<RowsOfJoint const*>> unseen(input.validate.size());
   std::vector<Eigen::Index> own_columns;
-  for (auto const& joint : rows) {
+  for (auto const& joint : of.rows) {
     if (!joint || joint->training.rows.empty()) continue;
     training.push_back(&joint->training);
     own_columns.push_back(joint->training.model.own.cols());
     for (std::size_t k = 0; k < unseen.size(); ++k) unseen[k].push_back(&joint->validation[k]);
   }
-  WholeArmRows const trained = whole_arm_rows(training, own_columns, noise, places);
+  WholeArmRows const trained = whole_arm_rows(training, own_columns, of.noise, of.laws);
   std::vector<WholeArmRows> others;
-  for (auto const& joints : unseen) others.push_back(whole_arm_rows(joints, own_columns, noise, places));
+  for (auto const& joints : unseen) others.push_back(whole_arm_rows(joints, own_columns, of.noise, of.laws));
+  DecisionNumbers numbers = input.numbers;
   numbers.alpha *= numbers.whole_arm_share;
-  return search_whole_arm({trained, others, noise, numbers, input.seed, input.threads});
+  return search_whole_arm({trained, others, of.noise, numbers, input.seed, input.threads});
 }
 
-std::vector<RecordedArm> without_laws(ArmFiles const& files, std::vector<FoundWholeArmLaw> const& accepted) {
+std::vector<RecordedArm> without_laws(ArmDiagnosisInput const& input, ArmFiles const& files, ArmFilter const& filter,
+                                      std::vector<FoundWholeArmLaw> const& accepted) {
   std::vector<RecordedArm> arms = files.arms;
   for (std::size_t k = 0; k < arms.size(); ++k) {
     bool const is_unseen = k >= files.training;
-    OneRecording const of{files.laws[k], files.arms[k].joints.front().time_s, is_unseen ? k - files.training : k,
-                          is_unseen};
+    auto const laws =
+        whole_arm_laws(input.model, files.parameters, motion_of(files.arms[k], filter), files.wanted, input.threads);
+    OneRecording const of{laws, files.arms[k].joints.front().time_s, is_unseen ? k - files.training : k, is_unseen};
     auto const torques = whole_arm_torques(accepted, of);
     for (std::size_t j = 0; j < torques.size(); ++j) {
       Recording& joint = arms[k].joints[j];

@@ -14,27 +14,35 @@
 
 namespace torquescope {
 
-// those of training first; laws: of the whole arm as far as the job asks for them, of each file
+// those of training first
 struct ArmFiles {
   std::vector<RecordedArm> arms{};
   std::size_t training = 0;
-  std::vector<std::vector<WholeArmLaw>> laws{};
+  std::vector<Effect const*> wanted{};  // effects of the whole arm that the job asks for
+  Eigen::VectorXd parameters{};         // [R] of the arm whose zeros, links and joints these effects change
 
   std::vector<std::string> names(bool of_training) const;
   std::vector<double> begins_s(std::size_t joint) const;
-  Eigen::Index law_columns() const;  // 0: none is asked for
 };
 ArmFiles arm_files(ArmDiagnosisInput const& input, std::vector<RecordedArm> arms, ArmFilter const& filter);
 
-// [file][N]: joints with the columns of the arm, of their neighbours and of laws of the whole arm
-std::vector<std::vector<Recording>> joints_of(ArmFiles const& files, ArmModel const& model, ArmFilter const& filter);
+// joints with the columns of the arm, of their neighbours and of laws of the whole arm
+struct JointsOfArm {
+  std::vector<std::vector<Recording>> files{};  // [file][N]
+  std::vector<LawPlace> laws{};                 // empty: none is asked for
+};
+JointsOfArm joints_of(ArmFiles const& files, ArmModel const& model, ArmFilter const& filter, int threads);
 
 // rows: of each joint, none where it has no model; noise: [N]
-WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, ArmFiles const& files,
-                                 std::vector<std::optional<ArmRowsOfJoint>> const& rows, Eigen::VectorXd const& noise,
-                                 DecisionNumbers numbers);
+struct RowsOfArm {
+  std::vector<LawPlace> const& laws;
+  std::vector<std::optional<ArmRowsOfJoint>> const& rows;
+  Eigen::VectorXd noise{};
+};
+WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, RowsOfArm const& of);
 
 // what the laws add is no torque to explain any more; it passes the gears all the same. The laws are those of `files`
-std::vector<RecordedArm> without_laws(ArmFiles const& files, std::vector<FoundWholeArmLaw> const& accepted);
+std::vector<RecordedArm> without_laws(ArmDiagnosisInput const& input, ArmFiles const& files, ArmFilter const& filter,
+                                      std::vector<FoundWholeArmLaw> const& accepted);
 
 }  // namespace torquescope

@@ -16,12 +16,12 @@ RowGrid grid_of(Strip const& strip, double begins_s) {
           filter.neighbour_correlation(strip.rows_apart)};
 }
 
-void add_strip(RowsOfJoint& to, Strip const& strip, std::size_t joint, double begins_s) {
+void add_strip(RowsOfJoint& to, Strip const& strip, double begins_s) {
   RowGrid const grid = grid_of(strip, begins_s);
   for (Eigen::Index const row : strip.rows) {
     Eigen::Index const instant = row / strip.rows_apart;
     to.rows.push_back(
-        {joint, to.recordings.size(), instant, grid.start_s + static_cast<double>(instant) * grid.period_s});
+        {to.joint, to.recordings.size(), instant, grid.start_s + static_cast<double>(instant) * grid.period_s});
   }
   to.recordings.push_back(grid);
 }
@@ -82,17 +82,17 @@ ArmRowsOfJoint rows_of_joint(DecidedJoint const& joint, Eigen::Index laws) {
   of_laws.places.resize(static_cast<std::size_t>(laws));
   std::iota(of_laws.places.begin(), of_laws.places.end(), Eigen::Index{0});
   ArmRowsOfJoint made;
+  made.training.joint = joint.joint;
   made.training.model = shared_rows(*joint.model.fitted, joint.shared);
   made.training.laws = shared_rows(*joint.model.fitted, of_laws).shared;
   made.training.torque_energy = joint.strips.training_energy;
   std::size_t recording = 0;
-  for (Strip const& strip : joint.strips.training)
-    add_strip(made.training, strip, joint.joint, joint.begins_s[recording++]);
+  for (Strip const& strip : joint.strips.training) add_strip(made.training, strip, joint.begins_s[recording++]);
   for (Strip const& strip : joint.strips.validation) {
-    RowsOfJoint one{predicted_rows(joint.model, strip, joint.shared).rows,
+    RowsOfJoint one{joint.joint, predicted_rows(joint.model, strip, joint.shared).rows,
                     predicted_rows(joint.model, strip, of_laws).rows.shared};
     one.torque_energy = on_rows(strip, strip.torque).squaredNorm();
-    add_strip(one, strip, joint.joint, joint.begins_s[recording++]);
+    add_strip(one, strip, joint.begins_s[recording++]);
     made.validation.push_back(std::move(one));
   }
   return made;
@@ -120,7 +120,7 @@ WholeArmRows whole_arm_rows(std::vector<RowsOfJoint const*> const& joints, std::
   auto first = place.begin();
   for (std::size_t i = 0; i < joints.size(); own += own_columns[i++]) {
     RowsOfJoint const& joint = *joints[i];
-    double const per_noise = 1.0 / noise[static_cast<Eigen::Index>(joint.rows.front().joint)];
+    double const per_noise = 1.0 / noise[static_cast<Eigen::Index>(joint.joint)];
     std::vector<Eigen::Index> const at(first, first + std::ssize(joint.rows));
     first += std::ssize(joint.rows);
     all.model(at, Eigen::seqN(0, shared)) = per_noise * joint.model.shared;

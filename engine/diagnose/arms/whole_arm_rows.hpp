@@ -51,6 +51,7 @@ struct RowGrid {
 
 // one joint in one or more recordings, one after the other
 struct RowsOfJoint {
+  std::size_t joint = 0;
   SharedRows model{};
   Eigen::MatrixXd laws{};      // n x L
   std::vector<ArmRow> rows{};  // n

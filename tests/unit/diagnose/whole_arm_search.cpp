@@ -118,7 +118,7 @@ class WholeArmSearch : public testing::Test {
   }
 
   static WholeArmAnswer found_in(ArmDiagnosisInput const& asked, LearntArm const& arm) {
-    return laws_of_whole_arm(asked, arm.files, arm.rows, arm.noise(), {});
+    return laws_of_whole_arm(asked, {arm.laws, arm.rows, arm.noise()});
   }
 
   SerialChain const chain = three_revolute_joints();
@@ -227,12 +227,12 @@ TEST_F(WholeArmSearch, TakesOutWhatItFound) {
   std::vector<RecordedArm> const none{};
   LearntArm const arm = learnt(input(train, none));
   auto const found = found_in(input(train, none), arm);
-  auto const torques = whole_arm_torques(found.accepted, {arm.files.laws[0], train[0].joints[0].time_s, 0, false});
+  auto const left = without_laws(input(train, none), arm.files, {filter, section}, found.accepted);
   RecordedArm const without = recorded({chain}, 1);
   double wrong = 0.0, whole = 0.0;
-  for (std::size_t j = 0; j < torques.size(); ++j) {
+  for (std::size_t j = 0; j < train[0].joints.size(); ++j) {
     Eigen::VectorXd const really = train[0].joints[j].torque - without.joints[j].torque;
-    wrong += (torques[j] - really).squaredNorm();
+    wrong += (left[0].joints[j].gear_load - really).squaredNorm();
     whole += really.squaredNorm();
   }
   EXPECT_LT(std::sqrt(wrong / whole), 0.05);
