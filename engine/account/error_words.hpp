@@ -13,7 +13,7 @@
 namespace torquescope {
 
 // ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, a mean over replicates; what is below it has
-// some replicates below it as well (unseen_floor.hpp), and is told what the floor is; "" where none is known
+// some replicates below it as well, and is told what the floor is; "" where none is known
 std::string floor_words(double relerr, double floor);
 
 // What the mask leaves out, and the error with it: "71 % of the time with 98 % of the residual's energy, near reversals

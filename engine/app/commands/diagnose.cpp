@@ -55,6 +55,7 @@ ExitCode code_of(DiagnoseArguments const& arguments, Diagnosis const& diagnosis)
 constexpr StopWords words_of_one{
     "stopping after the running step of the search",
     "stopped in the middle of a step that takes long: nothing was written, the same command begins anew"};
+
 void print_baseline(Session const& session, Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
     if (joint.baseline.empty()) continue;  // given up before it was fitted: the verdict says why
