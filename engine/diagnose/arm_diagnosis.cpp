@@ -66,8 +66,8 @@ class ArmWork {
     Diagnosis diagnosis;
     diagnosis.seed = input_.seed;
     diagnosis.q = input_.numbers.alpha;
-    diagnosis.arm =
-        account_for_whole_arm(answers_, {arm_.files.names(true), arm_.files.names(false)}, whole_arm_alpha());
+    diagnosis.arm = account_for_whole_arm(answers_, {arm_.files.names(true), arm_.files.names(false)},
+                                          input_.numbers.alpha_of_whole_arm());
     for (auto& outcome : outcomes_) {
       JointDiagnosis joint = std::move(outcome.joints.front());
       joint.verdict = outcome.verdict;
@@ -82,7 +82,6 @@ class ArmWork {
 
  private:
   std::size_t training() const { return input_.train.size(); }
-  double whole_arm_alpha() const { return input_.numbers.whole_arm_share * input_.numbers.alpha; }
 
   // whether any were found
   bool take_laws_of_whole_arm() {

@@ -62,7 +62,7 @@ WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, RowsOfArm const
   std::vector<WholeArmRows> others;
   for (auto const& joints : unseen) others.push_back(whole_arm_rows(joints, own_columns, of.noise, of.laws));
   DecisionNumbers numbers = input.numbers;
-  numbers.alpha *= numbers.whole_arm_share;
+  numbers.alpha = numbers.alpha_of_whole_arm();
   return search_whole_arm({trained, others, of.noise, numbers, input.seed, input.threads});
 }
 

@@ -32,8 +32,9 @@ void write_record(ResultWriter& writer, std::string const& group, RecordColumns 
   writer.attribute(group, "kept_rate_hz", record.kept_rate_hz);
   writer.attribute(group, "cutoff_hz", record.cutoff_hz);
   std::vector<std::int64_t> const rows(record.kept_rows.begin(), record.kept_rows.end());
-  writer.whole_numbers(group + "/row", {n}, rows,
-                       Note{"1", "index among the kept samples, masked reversals left out"}.over({"time"}));
+  writer.whole_numbers(
+      group + "/row", {n}, rows,
+      Note{"1", "index among the kept samples; one is missing where a row was left out"}.over({"time"}));
   writer.numbers(group + "/time", {n}, span_of(record.time_s), Note{"s", "time"}.over({"time"}));
   writer.numbers(group + "/position", {n}, span_of(record.q), Note{length, "position"}.over({"time"}));
   writer.numbers(group + "/velocity", {n}, span_of(record.dq), Note{length + "/s", "velocity"}.over({"time"}));

@@ -2,13 +2,11 @@
 // How unusual a statistic of the data is among the same statistic of its replicates: the null of every claim.
 //
 // Shapes     replicates: one value per replicate, M of them
-// p          empirical: (1 + number of replicates at or above) / (M + 1), valid for any M; tail: from M = 200 on an
-//            exponential beyond the upper quartile, so that a test over many candidates can reject
+// p          empirical: (1 + number of replicates at or above) / (M + 1), valid for any M
 // z          (data - mean) / (spread * sqrt(1 + 1/M)); a replicate's own z is made without it, standardised_twins()
 // Requires   larger is more unusual; M >= 2; finite values
 // Threads    free functions
-// Source     Davison, Hinkley 1997, section 4.2, doi:10.1017/CBO9780511802843; tail: Pickands 1975,
-//            doi:10.1214/aos/1176343003
+// Source     Davison, Hinkley 1997, section 4.2, doi:10.1017/CBO9780511802843
 
 #include <cstddef>
 #include <span>

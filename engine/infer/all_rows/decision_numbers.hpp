@@ -27,6 +27,7 @@ struct DecisionNumbers {
   // of alpha, what effects of a whole arm may spend; its joints share the rest alike (weighted Bonferroni: Genovese,
   // Roeder, Wasserman 2006, doi:10.1093/biomet/93.3.509)
   double whole_arm_share = 0.1;
+  double alpha_of_whole_arm() const { return whole_arm_share * alpha; }
   double alpha_of_joint(std::size_t joints) const {
     return joints > 1 ? (1.0 - whole_arm_share) * alpha / static_cast<double>(joints) : alpha;
   }

@@ -1,15 +1,13 @@
 #pragma once
-// The points at which an effect's shape is tried, and the box round one of them in which it is refined.
+// The points at which an effect's shape is tried.
 //
 // Points     waves (orders, frequencies): 0.7 of the resolution of range or duration, most_waves at most; instants and
 //            places: 24; else 10 for one parameter, 6 each for two, 4 each for three; logarithmic ones a factor of 2.5
 //            apart (3 to 10). Of four, one that is linear or absent at its lower bound stays at that bound
-// Resonance  a fifth from one to the next, four points of each other parameter; 2 % where the recorded motion rings
+// Resonance  a fifth from one to the next, four points of each other parameter
 // Lattice    of three or more parameters every other point, like the white fields of a chessboard: half as many. The
-//            furthest shape is one step from the next point, not 0.87 (three parameters; as far of four). Not where the
-//            recorded motion rings: a sharp resonance is missed in one direction only
-// Box        one point to both sides, within the bounds
-// Units      SI of the parameter; box in a scale from 0 to 1 over the bounds (logarithmic where the parameter is)
+//            furthest shape is one step from the next point, not 0.87 (three parameters; as far of four)
+// Units      SI of the parameter; the unit scale goes from 0 to 1 over the bounds (logarithmic where the parameter is)
 // Threads    free functions
 // Source     lattices Dn and their covering radii: Conway, Sloane 1999, doi:10.1007/978-1-4757-6568-7, chapter 4
 
@@ -31,8 +29,7 @@ struct ShapeGrid {
 
   std::size_t size() const { return places.size(); }  // 1 for an effect without shape
   std::vector<double> point(std::size_t index) const;
-  // of a refinement round point(index), in the unit scale
-    std::vector<double> to_unit_scale(std::vector<double> const& shape) const;
+  std::vector<double> to_unit_scale(std::vector<double> const& shape) const;
   std::vector<double> from_unit_scale(std::vector<double> const& unit) const;
   // half the way to the next point, in the unit scale; 0 where there is one value
   std::vector<double> half_steps() const;

@@ -18,14 +18,9 @@ using Group = std::vector<Eigen::Index>;
 
 class JointFit {
  public:
-  JointFit(ProcessedRecord& record, JointModel const& model, std::vector<Eigen::Index> const& present,
-           std::string const& name)
-      : record_(record),
-        owners_(model.column_owners()),
-        bounds_(joint_bounds(model)),
-        name_(name),
-        is_whole_(present.size() == owners_.size()) {
-    for (Eigen::Index column : present) groups_.push_back({column});
+  JointFit(ProcessedRecord& record, JointModel const& model, std::string const& name)
+      : record_(record), owners_(model.column_owners()), bounds_(joint_bounds(model)), name_(name) {
+    for (Eigen::Index column = 0; column < record.columns.cols(); ++column) groups_.push_back({column});
   }
 
   void run() {
@@ -41,7 +36,7 @@ class JointFit {
     for (Group const& group : groups_) data.columns.push_back(owners_[static_cast<std::size_t>(group.front())]);
     data.recording_names = {name_};
     // as long as all columns are there, they are lent and not copied
-    bool const lends = is_whole_ && inertia_ == JointBounds::none && groups_.size() == owners_.size();
+    bool const lends = inertia_ == JointBounds::none && groups_.size() == owners_.size();
     data.phi = lends ? std::move(record_.columns) : grouped_columns();
     data.tau = lends ? std::move(record_.torque) : torque_beside_inertia();
     Eigen::VectorXd const solved = solve_weighted(data, {});
@@ -130,7 +125,6 @@ class JointFit {
   std::vector<RegressorColumn> owners_;
   JointBounds bounds_;
   std::string const& name_;
-  bool is_whole_;
   std::vector<Group> groups_;
   Eigen::Index inertia_ = JointBounds::none;  // held at its bound
   double held_inertia_ = 0.0;
@@ -138,9 +132,8 @@ class JointFit {
 
 }  // namespace
 
-void fit_joint(ProcessedRecord& record, JointModel const& model, std::vector<Eigen::Index> const& present,
-               std::string const& name) {
-  JointFit(record, model, present, name).run();
+void fit_joint(ProcessedRecord& record, JointModel const& model, std::string const& name) {
+  JointFit(record, model, name).run();
 }
 
 }  // namespace torquescope

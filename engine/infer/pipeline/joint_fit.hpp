@@ -16,10 +16,8 @@
 
 namespace torquescope {
 
-// fills parameters, residual and held of a record whose columns and torque are those of the rows; present: the columns
-// that count, others have parameter 0
+// fills parameters, residual and held of a record whose columns and torque are those of the rows
 // Errors     Error 65 when the rows cannot tell the parameters apart
-void fit_joint(ProcessedRecord& record, JointModel const& model, std::vector<Eigen::Index> const& present,
-               std::string const& name);
+void fit_joint(ProcessedRecord& record, JointModel const& model, std::string const& name);
 
 }  // namespace torquescope

@@ -56,7 +56,6 @@ class JointModel {
 
   // drive: the same motion with a wider band, for effects that have an inertia (record_pipeline.hpp)
   Eigen::MatrixXd columns(Motion const& motion, Motion const& drive) const;
-  // what the joint needs at these parameters
   // linear parameters, then the shape: as Effect::runner takes them
   std::vector<double> effect_parameters(std::size_t effect, Eigen::VectorXd const& parameters) const;
   // Errors: Error 65 as make_twin_joint

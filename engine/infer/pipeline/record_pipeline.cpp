@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "engine/base/contract.hpp"
 #include "engine/base/error.hpp"
@@ -15,16 +14,6 @@
 #include "engine/infer/pipeline/unknown_start.hpp"
 
 namespace torquescope {
-namespace {
-
-// columns that the motion moves at all
-std::vector<Eigen::Index> present_columns(Eigen::MatrixXd const& columns) {
-  std::vector<Eigen::Index> present(static_cast<std::size_t>(columns.cols()));
-  std::iota(present.begin(), present.end(), Eigen::Index{0});
-  return present;
-}
-
-}  // namespace
 
 RecordPipeline::RecordPipeline(JointModel model, FilterOptions const& options, double rate_hz, Eigen::Index n_samples,
                                Section const& filter)
@@ -54,7 +43,7 @@ std::vector<Eigen::Index> RecordPipeline::own_rows(Motion const& motion) const {
 ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   ProcessedRecord record = prepare(recording);
   require_rows(record.kept_rows.size(), model_.size() + 1, recording.name, fewer_reversals);
-  fit_joint(record, model_, present_columns(record.columns), recording.name);
+  fit_joint(record, model_, recording.name);
   return record;
 }
 

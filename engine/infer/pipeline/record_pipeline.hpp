@@ -59,7 +59,6 @@ class RecordPipeline {
   Eigen::VectorXd filtered(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
   Eigen::MatrixXd filtered_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals,
                                    ProcessedRecord const& record) const;
-  // the rows' own samples of a signal of the full rate, not filtered: time, velocity
 
  private:
   std::vector<Eigen::Index> own_rows(Motion const& motion) const;

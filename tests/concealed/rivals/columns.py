@@ -3,7 +3,7 @@
     columns = read("C.h5")            of `torquescope diagnose JOB --columns C.h5` (RESULT_FORMAT.md, /columns)
     answer = METHODS["iid_f"](columns)
 
-Rows are those the engine fits: filtered, decimated, reversals masked. The columns of each effect stand at the shape
+Rows are those the engine fits: filtered, of all samples. The columns of each effect stand at the shape
 that explains most of the least-squares residual; `Candidate.df` charges a test for that search, as an
 extra-sum-of-squares test of nonlinear regression does (Bates, Watts 1988, section 3.5): its linear parameters and its
 shapes.

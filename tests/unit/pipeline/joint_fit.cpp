@@ -32,9 +32,7 @@ struct Rows {
 
   void fit(Eigen::VectorXd torque) {
     record.torque = std::move(torque);
-    std::vector<Eigen::Index> present;
-    for (Eigen::Index k = 0; k < record.columns.cols(); ++k) present.push_back(k);
-    fit_joint(record, model, present, "made up");
+    fit_joint(record, model, "made up");
   }
 };
 
