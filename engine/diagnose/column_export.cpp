@@ -75,10 +75,10 @@ ColumnExport export_columns(DiagnosisInput const& input) {
   auto const questions = law_questions(laws, scales, sticking_bounds(strips.training.front().resolution).most_length);
   FittedStrips const& fitted = *model.fitted;
   Score const score(fitted.chosen().fit.columns, fitted.residual(), fitted.guard());
-  auto const found = scan_recording(questions, fitted, score, FoldKind::whole, input.threads);
+  auto const found = scan_recording(questions, fitted, score, input.threads);
   std::vector<RefinedLaw> refined(questions.size());
   parallel_for(questions.size(), input.threads, [&](std::size_t i, int) {
-    refined[i] = refined_law(questions[i], found[i], fitted, score, FoldKind::whole, input.numbers.least_fall);
+    refined[i] = refined_law(questions[i], found[i], fitted, score, input.numbers.least_fall);
   });
   auto const n = static_cast<double>(fitted.residual().size());
   ColumnExport result;

@@ -1,7 +1,6 @@
 #include "engine/diagnose/arms/whole_arm_scan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "engine/base/parallel.hpp"
@@ -75,7 +74,7 @@ class Scan {
        ScanSetting const& setting)
       : rows_(rows), signs_(signs_of(rows.stretches.size(), setting)), stretches_(rows.stretches.size()) {
     parallel_for(stretches_.size(), setting.threads, [&](std::size_t s, int) {
-      std::array const block{rows_.stretches[s].rows};
+      RowBlock const& block = rows_.stretches[s].rows;
       stretches_[s] = {inner_products(basis, basis, block), inner_products(rows_.laws, rows_.laws, block),
                        inner_products(rows_.laws, basis, block), inner_products(basis, residual, block),
                        inner_products(rows_.laws, residual, block)};

@@ -115,12 +115,15 @@ std::vector<double> around(double level, std::vector<double> const& tried) {
 
 enum class Sides { both, upper, lower };
 
-// the best on levels that grow finer around it
+// the best on levels that grow finer around it; none where a level nearer to zero might explain more: what bends at the
+// border of the scan is the torque as a whole, not a level of it
 Kinks scanned(Scan const& scan, std::vector<double> const& sorted, Sides sides) {
   std::vector<double> uppers, lowers;
   if (sides != Sides::lower) uppers = levels_of(sorted, up);
   if (sides != Sides::upper) lowers = levels_of(sorted, down);
   Kinks best = scan.best(uppers, lowers);
+  if (std::isfinite(best.upper) && best.upper == uppers.front()) return {};
+  if (std::isfinite(best.lower) && best.lower == lowers.front()) return {};
   for (Index round = 0; round < rounds; ++round) {
     uppers = around(best.upper, uppers), lowers = around(best.lower, lowers);
     best = scan.best(uppers, lowers);
@@ -209,7 +212,8 @@ std::optional<CommandLimit> command_limit(TorqueBesideMotion const& beside, Vect
   for (auto const sides : {Sides::both, Sides::upper, Sides::lower}) {
     Kinks const found = scanned(scan, sorted, sides);
     of_both = std::max(of_both, found.energy);
-    if (found.energy < alone * of_both) continue;  // a limit on one side leaves nothing to the other
+    if (!(found.energy > 0.0) || found.energy < alone * of_both)
+      continue;  // a limit on one side leaves nothing to the other
     if (!is_limit(beside, scan, found, torque)) continue;
     CommandLimit limit;
     if (std::isfinite(found.upper)) limit.upper = found.upper;

@@ -31,8 +31,9 @@ OrthonormalGroup group_of(Eigen::Ref<Eigen::MatrixXd const> const& columns,
   group.non_negative = std::move(non_negative);
   // modified Gram-Schmidt with pivoting by what is left of each column
   Eigen::MatrixXd left = columns;
-  group.q.resize(columns.rows(), 0);
-  for (Eigen::Index step = 0; step < columns.cols(); ++step) {
+  group.q.resize(columns.rows(), columns.cols());
+  Eigen::Index rank = 0;
+  for (; rank < columns.cols(); ++rank) {
     Eigen::Index best = -1;
     double share = negligible;
     for (Eigen::Index k = 0; k < left.cols(); ++k) {
@@ -43,33 +44,19 @@ OrthonormalGroup group_of(Eigen::Ref<Eigen::MatrixXd const> const& columns,
       }
     }
     if (best < 0) break;
-    Eigen::VectorXd direction = left.col(best);
-    direction -= group.q * (group.q.transpose() * direction).eval();
+    auto direction = group.q.col(rank);
+    direction = left.col(best);
+    if (rank > 0) direction -= group.q.leftCols(rank) * (group.q.leftCols(rank).transpose() * direction).eval();
     direction.normalize();
-    group.q.conservativeResize(Eigen::NoChange, group.q.cols() + 1);
-    group.q.rightCols(1) = direction;
-    left -= direction * (direction.transpose() * left).eval();
+    if (rank + 1 < columns.cols()) left -= direction * (direction.transpose() * left).eval();
     left.col(best).setZero();
   }
+  if (rank < columns.cols()) group.q.conservativeResize(Eigen::NoChange, rank);
   group.r = inner_products(group.q, columns);
   // what is left of a dropped column is rounding: alone it must not count as a direction
   for (Eigen::Index k = 0; k < columns.cols(); ++k)
     if (columns.col(k).norm() <= negligible * whole[k]) group.r.col(k).setZero();
   return group;
-}
-
-Eigen::MatrixXd gathered(Eigen::Ref<Eigen::MatrixXd const> const& from, std::span<RowBlock const> rows) {
-  Eigen::Index n = 0;
-  for (RowBlock const& block : rows) n += block.size();
-  Eigen::MatrixXd all(n, from.cols());
-  for (Eigen::Index k = 0; k < from.cols(); ++k) {
-    Eigen::Index at = 0;
-    for (RowBlock const& block : rows) {
-      all.col(k).segment(at, block.size()) = from.col(k).segment(block.from, block.size());
-      at += block.size();
-    }
-  }
-  return all;
 }
 
 }  // namespace
@@ -85,11 +72,8 @@ Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen
 }
 
 Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b,
-                               std::span<RowBlock const> rows) {
-  if (rows.size() == 1)
-    return inner_products(a.middleRows(rows[0].from, rows[0].size()), b.middleRows(rows[0].from, rows[0].size()));
-  // short blocks one by one would be all sums of few rows
-  return inner_products(gathered(a, rows), gathered(b, rows));
+                               RowBlock const& rows) {
+  return inner_products(a.middleRows(rows.from, rows.size()), b.middleRows(rows.from, rows.size()));
 }
 
 std::vector<OrthonormalGroup> orthonormal_groups(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,

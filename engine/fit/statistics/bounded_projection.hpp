@@ -9,7 +9,6 @@
 // Source     Golub, Pereyra 1973 (variable projection); Lawson, Hanson 1974 (signs)
 
 #include <Eigen/Core>
-#include <span>
 #include <vector>
 
 #include "engine/fit/statistics/equal_blocks.hpp"
@@ -35,7 +34,7 @@ std::vector<OrthonormalGroup> orthonormal_groups(Eigen::MatrixXd columns, Eigen:
 // A' B, and over some rows alone
 Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b);
 Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b,
-                               std::span<RowBlock const> rows);
+                               RowBlock const& rows);
 
 struct BoundedGain {
   double gain = 0.0;           // energy

@@ -67,16 +67,44 @@ std::vector<Fold> folds(Eigen::Index n_rows, Eigen::Index guard, FoldKind kind) 
   return kind == FoldKind::whole ? whole_folds(n_rows, guard) : interleaved_folds(n_rows, guard);
 }
 
-FoldProducts fold_products(std::vector<Fold> const& folds, Eigen::Ref<Eigen::MatrixXd const> const& basis,
-                           Eigen::Ref<Eigen::MatrixXd const> const& signals) {
-  FoldProducts result;
-  result.whole = Eigen::MatrixXd::Zero(basis.cols(), signals.cols());
+FoldedRows folded_rows(std::vector<Fold> const& folds, Eigen::Ref<Eigen::MatrixXd const> const& columns) {
+  FoldedRows result;
+  Eigen::Index n = 0;
+  auto const place = [&](std::vector<RowBlock> const& blocks) {
+    RowBlock placed{n, n};
+    for (auto const& block : blocks) placed.to += block.size();
+    n = placed.to;
+    return placed;
+  };
   for (auto const& fold : folds) {
-    result.inside.push_back(inner_products(basis, signals, fold.inside));
-    result.left_out.push_back(result.inside.back() + inner_products(basis, signals, fold.guard));
+    result.inside.push_back(place(fold.inside));
+    result.guard.push_back(place(fold.guard));
+  }
+  result.rows.resize(n, columns.cols());
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    double* to = result.rows.col(k).data();
+    for (auto const& fold : folds)
+      for (auto const* blocks : {&fold.inside, &fold.guard})
+        for (auto const& block : *blocks) to = std::copy_n(columns.col(k).data() + block.from, block.size(), to);
+  }
+  return result;
+}
+
+FoldProducts fold_products(FoldedRows const& basis, FoldedRows const& signals) {
+  auto const of = [&](RowBlock const& rows) { return inner_products(basis.rows, signals.rows, rows); };
+  FoldProducts result;
+  result.whole = Eigen::MatrixXd::Zero(basis.rows.cols(), signals.rows.cols());
+  for (std::size_t f = 0; f < basis.inside.size(); ++f) {
+    result.inside.push_back(of(basis.inside[f]));
+    result.left_out.push_back(result.inside.back() + of(basis.guard[f]));
     result.whole += result.inside.back();
   }
   return result;
+}
+
+FoldProducts fold_products(std::vector<Fold> const& folds, Eigen::Ref<Eigen::MatrixXd const> const& basis,
+                           Eigen::Ref<Eigen::MatrixXd const> const& signals) {
+  return fold_products(folded_rows(folds, basis), folded_rows(folds, signals));
 }
 
 FoldProducts stacked(FoldProducts const& above, FoldProducts const& below) { return joined(above, below, one_above); }

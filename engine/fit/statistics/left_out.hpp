@@ -37,6 +37,15 @@ struct FoldProducts {
   Eigen::MatrixXd whole{};                            // k x m: of all rows
 };
 
+// Columns with the rows of each fold together, and those of its guard: what products with many others read in one go
+struct FoldedRows {
+  Eigen::MatrixXd rows{};                   // at most 3 n
+  std::vector<RowBlock> inside{}, guard{};  // of `rows`, one for each fold
+};
+
+FoldedRows folded_rows(std::vector<Fold> const& folds, Eigen::Ref<Eigen::MatrixXd const> const& columns);
+
+FoldProducts fold_products(FoldedRows const& basis, FoldedRows const& signals);
 FoldProducts fold_products(std::vector<Fold> const& folds, Eigen::Ref<Eigen::MatrixXd const> const& basis,
                            Eigen::Ref<Eigen::MatrixXd const> const& signals);
 

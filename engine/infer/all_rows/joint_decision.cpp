@@ -124,8 +124,8 @@ class Search {
       return false;  // a model with laws is still asked for more
     tell("search", 0, questions.size());
     FittedStrips const& recording = *result_.final.fitted;
-    Score const score(recording.base(), recording.residual(), recording.guard());
-    auto const findings = scan_recording(questions, recording, score, kind, q_.threads);
+    Score const score(recording.base(), recording.residual(), recording.guard(), kind);
+    auto const findings = scan_recording(questions, recording, score, q_.threads);
     auto const effects = effects_now();
     TrialModel const beside = trial_model(result_.final, effects, score, judged_);
     Eigen::VectorXd const gains = gains_of(findings);
@@ -148,13 +148,14 @@ class Search {
     chance_of_delay_.insert(chance_of_delay_.end(), null.delays.begin(), null.delays.end());
     if (result_.facts.steps.empty()) result_.baseline_replicates = null.left;
     result_.final_replicates = null.left;
-    SmoothCorrection const correction = best_correction(recording, score);
+    SmoothCorrection const correction =
+        best_correction(recording, {recording.base(), recording.residual(), recording.guard()});
     StepFacts facts{{},
                     null.chance.replicates(),
                     null.source,
                     of_clock,
                     false,
-                    visible_share(null, score, kind),
+                    visible_share(null, score),
                     std::sqrt(recording.chosen().fit.energy() / rows().training_energy),
                     {correction.axis, correction.gain, empirical_p(correction.gain, null.corrections),
                      correction.rms / rows().torque_rms()}};
@@ -233,22 +234,22 @@ class Search {
 
   // the torque of a law of which as many laws as not would come out: S_0 falls by D / n_eff in its logarithm
   // Where no law is left, smooth functions tell
-  double visible_share(ReplicateGains const& null, Score const& score, FoldKind kind) const {
+  double visible_share(ReplicateGains const& null, Score const& score) const {
     Eigen::VectorXd needed =
         null.chance.gains.rows() > 0
             ? null.chance.needed(q_.numbers.alpha)
             : Eigen::VectorXd::Constant(1, value_of_chance(null.corrections, q_.numbers.correction_alpha()));
     std::nth_element(needed.begin(), needed.begin() + needed.size() / 2, needed.end());
-    Eigen::VectorXd const left = score.left_on_rows_with({}, 0, kind);
+    Eigen::VectorXd const left = score.left_on_rows_with({}, 0);
     double const fall = std::expm1(needed[needed.size() / 2] / effective_samples(left));
     return std::sqrt(fall * left.squaredNorm() / rows().training_energy);
   }
 
   // D of one law of the final model against the model without it
   double gain_beside(FittedModel const& without, std::size_t law) const {
-    Score const score(without.fitted->base(), without.fitted->residual(), without.fitted->guard());
-    return score.gain(law_group(*without.fitted, score.basis(), *accepted_[law].effect, accepted_[law].shape), 0,
+    Score const score(without.fitted->base(), without.fitted->residual(), without.fitted->guard(),
                       folds_of(*accepted_[law].effect));
+    return score.gain(law_group(*without.fitted, score.basis(), *accepted_[law].effect, accepted_[law].shape), 0);
   }
 
   double level_of(Effect const* law) const {
@@ -302,7 +303,7 @@ class Search {
     FoldKind const kind = folds_of(*effect);
     auto const effects = effects_without(law);
     FittedModel const without = fitted_with(effects, *result_.final.fitted);
-    Score const score(without.fitted->base(), without.fitted->residual(), without.fitted->guard());
+    Score const score(without.fitted->base(), without.fitted->residual(), without.fitted->guard(), kind);
     std::vector<Effect const*> laws = laws_to_ask(false);
     if (kind == FoldKind::interleaved) {
       auto const others = laws_to_ask(true);
@@ -310,7 +311,7 @@ class Search {
     }
     std::erase(laws, effect);
     auto const questions = law_questions(laws, scales(), shortest_way());
-    auto const findings = scan_recording(questions, *without.fitted, score, kind, q_.threads);
+    auto const findings = scan_recording(questions, *without.fitted, score, q_.threads);
     double const gain = gain_beside(without, law), judged = errors_of(rows(), without).judged();
     double const as_it_is = kind == FoldKind::interleaved ? error_on_folds(rows(), result_.final) : judged_;
     auto tried = tried_laws(q_, trial_model(without, effects, score, judged), questions, findings,

@@ -13,6 +13,23 @@ Motion one_way(Motion motion, double side, double least_speed) {
   return motion;
 }
 
+// with friction as s says at each sample, the samples weighed
+Eigen::MatrixXd mixed(LawColumnsOnStrip const& columns, Eigen::VectorXd const& sticking,
+                      Eigen::VectorXd const& weight) {
+  Eigen::MatrixXd all(columns.forward.rows(), columns.count());
+  std::size_t dry = 0;
+  for (Eigen::Index k = 0; k < all.cols(); ++k) {
+    auto const forward = columns.forward.col(k).array();
+    if (dry == columns.dry.size() || columns.dry[dry] != k) {
+      all.col(k) = weight.array() * forward;
+      continue;
+    }
+    auto const backward = columns.backward.col(static_cast<Eigen::Index>(dry++)).array();
+    all.col(k) = weight.array() * (0.5 * ((1.0 + sticking.array()) * forward + (1.0 - sticking.array()) * backward));
+  }
+  return all;
+}
+
 double slowest(double deadband) { return std::max(2.0 * deadband, std::numeric_limits<double>::min()); }
 
 }  // namespace
@@ -55,20 +72,10 @@ LawColumnsOnStrip columns_of(Regressor const& regressor, Strip const& strip) {
   return result;
 }
 
-Eigen::MatrixXd mixed(LawColumnsOnStrip const& columns, Eigen::VectorXd const& sticking) {
-  Eigen::MatrixXd all = columns.forward;
-  for (std::size_t i = 0; i < columns.dry.size(); ++i) {
-    auto const at = static_cast<Eigen::Index>(i);
-    all.col(columns.dry[i]) = 0.5 * ((1.0 + sticking.array()) * columns.forward.col(columns.dry[i]).array() +
-                                     (1.0 - sticking.array()) * columns.backward.col(at).array());
-  }
-  return all;
-}
-
 Eigen::MatrixXd on_rows(Strip const& strip, LawColumnsOnStrip const& columns, Eigen::VectorXd const& sticking,
                         Eigen::VectorXd const& weight) {
   if (columns.is_driven) return drive_on_rows(strip, at_drive_rate(strip, weight).asDiagonal() * columns.forward);
-  return on_rows(strip, weight.asDiagonal() * mixed(columns, sticking));
+  return on_rows(strip, mixed(columns, sticking, weight));
 }
 
 }  // namespace torquescope

@@ -18,8 +18,8 @@ namespace torquescope {
 
 struct LawColumnsOnStrip {
   Eigen::MatrixXd forward{}, backward{};  // backward: of the dry columns alone, in their order
-  std::vector<Eigen::Index> dry{};
-  bool is_driven = false;  // at the drive's rate
+  std::vector<Eigen::Index> dry{};        // ascending
+  bool is_driven = false;                 // at the drive's rate
 
   Eigen::Index count() const { return forward.cols(); }
 };
@@ -32,7 +32,5 @@ LawColumnsOnStrip columns_of(Regressor const& regressor, Strip const& strip);
 // with friction as s says at each sample, the samples weighed; on the strip's rows
 Eigen::MatrixXd on_rows(Strip const& strip, LawColumnsOnStrip const& columns, Eigen::VectorXd const& sticking,
                         Eigen::VectorXd const& weight);
-// the same at every sample, neither weighed nor filtered
-Eigen::MatrixXd mixed(LawColumnsOnStrip const& columns, Eigen::VectorXd const& sticking);
 
 }  // namespace torquescope

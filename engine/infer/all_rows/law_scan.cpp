@@ -51,8 +51,7 @@ Eigen::MatrixXd shape_tangents(ModelOnStrips const& on, TreatedFit const& fit) {
 constexpr std::size_t columns_at_once = 16;
 
 // each signal's best point of one law
-std::vector<LawFinding> best_points(LawQuestion const& question, FittedStrips const& fitted, Score const& score,
-                                    FoldKind kind) {
+std::vector<LawFinding> best_points(LawQuestion const& question, FittedStrips const& fitted, Score const& score) {
   Effect const& effect = *question.effect;
   std::vector<LawFinding> best(static_cast<std::size_t>(score.signals().cols()));
   for (auto& one : best) one.left = std::numeric_limits<double>::infinity();
@@ -63,7 +62,7 @@ std::vector<LawFinding> best_points(LawQuestion const& question, FittedStrips co
       shapes.push_back(question.grid.point(p));
     auto const groups = orthonormal_groups(law_on_rows(fitted, effect, shapes), score.basis(), signs(effect));
     for (std::size_t p = 0; p < groups.size(); ++p) {
-      Eigen::VectorXd const left = score.left_with(groups[p], kind);
+      Eigen::VectorXd const left = score.left_with(groups[p]);
       for (std::size_t s = 0; s < best.size(); ++s)
         if (left[static_cast<Eigen::Index>(s)] < best[s].left)
           best[s] = {first + p, left[static_cast<Eigen::Index>(s)], 0.0};
@@ -73,8 +72,8 @@ std::vector<LawFinding> best_points(LawQuestion const& question, FittedStrips co
 }
 
 double gain_at(LawQuestion const& question, std::size_t point, FittedStrips const& fitted, Score const& score,
-               Eigen::Index signal, FoldKind kind) {
-  return score.gain(law_group(fitted, score.basis(), *question.effect, question.grid.point(point)), signal, kind);
+               Eigen::Index signal) {
+  return score.gain(law_group(fitted, score.basis(), *question.effect, question.grid.point(point)), signal);
 }
 
 }  // namespace
@@ -150,37 +149,37 @@ void compare_columns(std::vector<LawQuestion>& questions, FittedStrips const& re
 }
 
 std::vector<LawFinding> scan_recording(std::vector<LawQuestion> const& questions, FittedStrips const& recording,
-                                       Score const& score, FoldKind kind, int threads) {
+                                       Score const& score, int threads) {
   std::vector<LawFinding> found(questions.size());
   parallel_for(questions.size(), threads, [&](std::size_t i, int) {
-    found[i] = best_points(questions[i], recording, score, kind).front();
-    found[i].gain = gain_at(questions[i], found[i].point, recording, score, 0, kind);
+    found[i] = best_points(questions[i], recording, score).front();
+    found[i].gain = gain_at(questions[i], found[i].point, recording, score, 0);
   });
   return found;
 }
 
 Eigen::MatrixXd gains_of_replicates(std::vector<LawQuestion> const& questions, FittedStrips const& recording,
-                                    std::vector<FittedStrips> const& replicates, FoldKind kind, int threads) {
+                                    std::span<FittedStrips const> replicates, FoldKind kind, int threads) {
   auto const m = static_cast<Eigen::Index>(replicates.size());
   Eigen::MatrixXd signals(recording.residual().size(), m);
   for (Eigen::Index t = 0; t < m; ++t) signals.col(t) = replicates[static_cast<std::size_t>(t)].residual();
-  Score const together(recording.base(), signals, recording.guard());
+  Score const together(recording.base(), signals, recording.guard(), kind);
   Eigen::MatrixXd gains(static_cast<Eigen::Index>(questions.size()), m);
   parallel_for(questions.size(), threads, [&](std::size_t i, int) {
     if (!questions[i].is_same_for_all) return;
-    auto const best = best_points(questions[i], recording, together, kind);
+    auto const best = best_points(questions[i], recording, together);
     for (Eigen::Index t = 0; t < m; ++t)
       gains(static_cast<Eigen::Index>(i), t) =
-          gain_at(questions[i], best[static_cast<std::size_t>(t)].point, recording, together, t, kind);
+          gain_at(questions[i], best[static_cast<std::size_t>(t)].point, recording, together, t);
   });
   parallel_for(replicates.size(), threads, [&](std::size_t t, int) {
     FittedStrips const& replicate = replicates[t];
-    Score const own(replicate.base(), replicate.residual(), replicate.guard());
+    Score const own(replicate.base(), replicate.residual(), replicate.guard(), kind);
     for (std::size_t i = 0; i < questions.size(); ++i) {
       if (questions[i].is_same_for_all) continue;
-      auto const best = best_points(questions[i], replicate, own, kind).front();
+      auto const best = best_points(questions[i], replicate, own).front();
       gains(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(t)) =
-          gain_at(questions[i], best.point, replicate, own, 0, kind);
+          gain_at(questions[i], best.point, replicate, own, 0);
     }
   });
   return gains;

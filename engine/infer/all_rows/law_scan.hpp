@@ -69,9 +69,9 @@ struct LawFinding {
 
 // of the recording, one for each question
 std::vector<LawFinding> scan_recording(std::vector<LawQuestion> const& questions, FittedStrips const& recording,
-                                       Score const& score, FoldKind kind, int threads);
+                                       Score const& score, int threads);
 // D of every law in every replicate: laws x replicates
 Eigen::MatrixXd gains_of_replicates(std::vector<LawQuestion> const& questions, FittedStrips const& recording,
-                                    std::vector<FittedStrips> const& replicates, FoldKind kind, int threads);
+                                    std::span<FittedStrips const> replicates, FoldKind kind, int threads);
 
 }  // namespace torquescope

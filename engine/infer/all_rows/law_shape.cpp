@@ -22,15 +22,15 @@ bool ends_at_bound(EffectParameter const& parameter, ParameterRange const& range
 
 class ShapeSearch {
  public:
-  ShapeSearch(LawQuestion const& question, FittedStrips const& fitted, Score const& score, FoldKind kind)
-      : question_(question), fitted_(fitted), score_(score), kind_(kind) {}
+  ShapeSearch(LawQuestion const& question, FittedStrips const& fitted, Score const& score)
+      : question_(question), fitted_(fitted), score_(score) {}
 
   OrthonormalGroup group(UnitShape const& at) const {
     return law_group(fitted_, score_.basis(), *question_.effect, question_.grid.from_unit_scale(at));
   }
-  double left(UnitShape const& at) const { return score_.left_with(group(at), kind_)[0]; }
+  double left(UnitShape const& at) const { return score_.left_with(group(at))[0]; }
   // what held-out rows lose by the effect, in their logarithm: D, but for n_eff, which differs from shape to shape
-  double fall(double left) const { return std::log(score_.left(kind_)[0] / left); }
+  double fall(double left) const { return std::log(score_.left()[0] / left); }
 
   // held: a shape that stays
   LowestPoint best_from(LowestPoint start, std::optional<std::size_t> held = {}) const {
@@ -45,21 +45,20 @@ class ShapeSearch {
   LawQuestion const& question_;
   FittedStrips const& fitted_;
   Score const& score_;
-  FoldKind kind_;
 };
 
 }  // namespace
 
 RefinedLaw refined_law(LawQuestion const& question, LawFinding const& from, FittedStrips const& fitted,
-                       Score const& score, FoldKind kind, double least_fall) {
+                       Score const& score, double least_fall) {
   Effect const& effect = *question.effect;
-  ShapeSearch const search(question, fitted, score, kind);
+  ShapeSearch const search(question, fitted, score);
   auto const [unit, left] = search.best_from({question.grid.to_unit_scale(question.grid.point(from.point)), from.left});
   RefinedLaw refined;
   refined.shape = question.grid.from_unit_scale(unit);
   OrthonormalGroup const group = search.group(unit);
   BoundedGain const explained = bounded_gain(group, group.q.transpose() * score.signals().col(0));
-  refined.gain = score.gain(group, 0, kind);
+  refined.gain = score.gain(group, 0);
   refined.rms = std::sqrt(explained.gain / static_cast<double>(score.signals().rows()));
   refined.parameters = explained.parameters;
   for (std::size_t k = 0; k < unit.size() && !refined.is_at_bound; ++k) {

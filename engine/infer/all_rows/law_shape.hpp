@@ -22,6 +22,6 @@ struct RefinedLaw {
 };
 
 RefinedLaw refined_law(LawQuestion const& question, LawFinding const& from, FittedStrips const& fitted,
-                       Score const& score, FoldKind kind, double least_fall);
+                       Score const& score, double least_fall);
 
 }  // namespace torquescope

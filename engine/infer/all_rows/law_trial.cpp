@@ -29,8 +29,7 @@ Refusal refusal_of(LawFacts const& law, RefinedLaw const& refined, JointScales c
 TriedLaw tried(DecisionQuestion const& question, TrialModel const& beside, LawQuestion const& law,
                LawFinding const& found, FoldKind kind) {
   if (!(found.gain > 0.0)) return {0, LawFacts{law.effect}, {}};
-  RefinedLaw const refined =
-      refined_law(law, found, *beside.fitted.fitted, beside.score, kind, question.numbers.least_fall);
+  RefinedLaw const refined = refined_law(law, found, *beside.fitted.fitted, beside.score, question.numbers.least_fall);
   TriedLaw one{0, {law.effect, refined.shape, std::max(found.gain, refined.gain)}, {}};
   one.facts.size = refined.rms / beside.rows.torque_rms();
   auto effects = beside.effects;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/base/parallel.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::size_t draws_for_each = 3;
 constexpr std::size_t fewest = 24;
+constexpr std::size_t at_once = 8;  // before it is asked whether they are enough: a divisor of `fewest`
 
 class Replicates {
  public:
@@ -39,8 +41,7 @@ class Replicates {
     auto const wanted = static_cast<std::size_t>(q_.numbers.replicates);
     for (std::size_t first = 0; first < draws_for_each * wanted && count() < wanted; first += twin_lanes) {
       tell(wanted);
-      take(within(drawn(first)), questions);
-      if (is_decided()) break;
+      if (take(within(drawn(first)), questions)) break;
     }
     if (count() < fewest && !is_decided()) {
       std::vector<FittedStrips> nearest = std::exchange(nearest_, {});
@@ -116,12 +117,21 @@ class Replicates {
     return kept;
   }
 
-  void take(std::vector<FittedStrips> fitted, std::vector<LawQuestion>& questions) {
-    if (fitted.empty()) return;
+  // some of them, until it is decided; whether it is
+  bool take(std::vector<FittedStrips> fitted, std::vector<LawQuestion>& questions) {
+    if (fitted.empty()) return false;
     if (noise_.empty()) {
       noise_ = noise_beside(fitted);
       compare_columns(questions, recording(), fitted.front(), q_.numbers.same_columns);
     }
+    for (std::size_t first = 0; first < fitted.size(); first += at_once) {
+      ask(std::span(fitted).subspan(first, std::min(at_once, fitted.size() - first)), questions);
+      if (is_decided()) return true;
+    }
+    return false;
+  }
+
+  void ask(std::span<FittedStrips> fitted, std::vector<LawQuestion> const& questions) {
     std::size_t const before = count();
     result_.delays.resize(before + fitted.size());
     parallel_for(fitted.size(), q_.threads, [&](std::size_t t, int) {

@@ -161,6 +161,7 @@ Eigen::MatrixXd columns_on_rows(std::span<Strip const> strips, std::vector<LawCo
     each.push_back(on_rows(strips[i], columns[i], samples[i].side, samples[i].weight));
     rows += each.back().rows();
   }
+  if (each.size() == 1) return std::move(each.front());
   Eigen::MatrixXd all(rows, each.front().cols());
   for (auto const& one : each) {
     all.middleRows(first, one.rows()) = one;

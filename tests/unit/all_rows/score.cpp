@@ -73,25 +73,25 @@ void expect_near(Eigen::VectorXd const& found, Eigen::VectorXd const& wanted) {
 
 TEST(Score, LeavesWhatFitsWithoutEachFoldLeave) {
   Problem const of = problem();
-  Score const score(of.base, of.signals, guard);
-  auto const group = orthonormal_group(of.law, score.basis(), {false});
   for (auto const kind : {FoldKind::whole, FoldKind::interleaved}) {
+    Score const score(of.base, of.signals, guard, kind);
+    auto const group = orthonormal_group(of.law, score.basis(), {false});
     Eigen::MatrixXd const before = unseen_residuals(of.base, of.signals, kind);
     Eigen::MatrixXd const after = unseen_residuals(side_by_side(of.base, of.law), of.signals, kind);
-    expect_near(score.left(kind), before.colwise().squaredNorm().transpose());
-    expect_near(score.left_with(group, kind), after.colwise().squaredNorm().transpose());
+    expect_near(score.left(), before.colwise().squaredNorm().transpose());
+    expect_near(score.left_with(group), after.colwise().squaredNorm().transpose());
     for (Eigen::Index k = 0; k < 3; ++k) {
-      expect_near(score.left_on_rows_with({}, k, kind), before.col(k));
-      expect_near(score.left_on_rows_with(group, k, kind), after.col(k));
+      expect_near(score.left_on_rows_with({}, k), before.col(k));
+      expect_near(score.left_on_rows_with(group, k), after.col(k));
     }
   }
 }
 
 TEST(Score, GainIsTheFallOfTheLogarithmTimesIndependentSquares) {
   Problem const of = problem();
-  Score const score(of.base, of.signals, guard);
-  auto const group = orthonormal_group(of.law, score.basis(), {false});
-  for (auto const kind : {FoldKind::whole, FoldKind::interleaved})
+  for (auto const kind : {FoldKind::whole, FoldKind::interleaved}) {
+    Score const score(of.base, of.signals, guard, kind);
+    auto const group = orthonormal_group(of.law, score.basis(), {false});
     for (Eigen::Index k = 0; k < 2; ++k) {
       Eigen::VectorXd const before = unseen_residuals(of.base, of.signals, kind).col(k);
       Eigen::VectorXd const after = unseen_residuals(side_by_side(of.base, of.law), of.signals, kind).col(k);
@@ -99,8 +99,9 @@ TEST(Score, GainIsTheFallOfTheLogarithmTimesIndependentSquares) {
       EXPECT_LT(squares, 0.8 * static_cast<double>(rows));
       double const wanted = squares * std::log(before.squaredNorm() / after.squaredNorm());
       EXPECT_GT(wanted, 20.0);
-      EXPECT_NEAR(score.gain(group, k, kind), wanted, 1e-8 * wanted);
+      EXPECT_NEAR(score.gain(group, k), wanted, 1e-8 * wanted);
     }
+  }
 }
 
 TEST(Score, AWrongSignGainsNothing) {

@@ -115,6 +115,34 @@ TEST(CommandLimit, IsNoneOfTorquesThatWereGiven) {
                                    [](double, double, double given) { return given - 3.0 * std::tanh(given / 3.0); })));
 }
 
+// one long way forth, one back: the torque is below zero on the way back alone, where it holds what no function of the
+// motion explains
+Recording forth_and_back(double share_back, double unexplained) {
+  auto recording = controlled(-unlimited, unlimited, nothing_more);
+  auto const n = recording.position.size();
+  auto const forth = static_cast<Index>((1.0 - share_back) * static_cast<double>(n));
+  double q = 0.0;
+  for (Index i = 0; i < n; ++i) {
+    bool const back = i >= forth;
+    double const along = back ? static_cast<double>(i - forth) / static_cast<double>(n - forth)
+                              : static_cast<double>(i) / static_cast<double>(forth);
+    double const dq = (back ? -0.3 : 0.2) * std::sin(pi * along);
+    q += dq / rate_hz;
+    recording.position[i] = recording.reference[i] = q;
+    recording.torque[i] =
+        2.0 * smooth_sign(dq) + viscous * dq + (back ? unexplained * std::sin(9.0 * recording.time_s[i]) : 0.0);
+  }
+  recording.torque += test::white_noise(n, 2, 0.01);
+  return recording;
+}
+
+// the torque of one direction is no command beyond a limit, however badly it is explained
+TEST(CommandLimit, IsNoneOfADirectionOfMotion) {
+  for (double const share : {0.2, 0.3, 0.34, 0.5})
+    for (double const unexplained : {0.1, 0.4, 0.8})
+      EXPECT_FALSE(limit_of(forth_and_back(share, unexplained))) << share << " " << unexplained;
+}
+
 TEST(TorqueZero, StepsAtItsSample) {
   for (double const size : {0.4, -0.15}) {
     auto recording = controlled(-unlimited, unlimited, nothing_more);
