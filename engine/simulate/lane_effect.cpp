@@ -115,17 +115,17 @@ class CatalogueEffect final : public LaneEffect {
   // motor_at_s: of the gear load, when the motor's torque is read
   Borne borne_at(LaneInstant const& at, double motor_at_s) const {
     Borne borne;
-    std::copy_n(at.motor_torque, twin_lanes, borne.motor.begin());
+    std::copy_n(at.motor_torque, lanes_, borne.motor.begin());
     if (!needs_baseline_) return borne;
     double const beside = gear_load_at(at.time_s), in_motor = gear_load_at(motor_at_s);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < lanes_; ++lane) {
       borne.load[lane] = beside + baseline_.inertia[lane] * at.ddq[lane];
       borne.motor[lane] += in_motor;
     }
     if (!has_weight_) return borne;
     LaneTorques sine, cosine;
-    kernels::cosine_sine_of_multiple(1.0, at.q, twin_lanes, cosine.data(), sine.data());
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    kernels::cosine_sine_of_multiple(1.0, at.q, lanes_, cosine.data(), sine.data());
+    for (std::size_t lane = 0; lane < lanes_; ++lane)
       borne.load[lane] += baseline_.gravity_sin[lane] * sine[lane] + baseline_.gravity_cos[lane] * cosine[lane];
     return borne;
   }
