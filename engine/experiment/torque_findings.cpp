@@ -169,8 +169,7 @@ BesideOfJoints beside_arm(std::vector<Recording> const& joints, std::optional<st
   for (std::size_t j = 0; j < joints.size(); ++j) {
     motion[j].left_out = left_out;
     if (payload) motion[j].torque -= model.known_torque(j, columns[j], *payload);
-    beside.push_back(
-        TorqueBesideMotion::of(joints[j], motion[j], without_gains(columns[j], model, j), parts.filter, filter));
+    beside.push_back(TorqueBesideMotion::of(motion[j], without_gains(columns[j], model, j), parts.filter, filter));
   }
   return beside;
 }

@@ -5,7 +5,6 @@
 
 #include "engine/base/dense_solvers.hpp"
 #include "engine/data/filter_checks.hpp"
-#include "engine/data/quiet_samples.hpp"
 #include "engine/fit/statistics/hat_functions.hpp"
 
 namespace torquescope {
@@ -18,23 +17,17 @@ using Eigen::VectorXd;
 constexpr Index most_rows_beside = 20000;  // a check must not cost a fit
 constexpr Index knots = 12;                // per axis: effects of friction and weight bend less often than that
 constexpr Index fewest_rows_a_column = 5;
-constexpr double share_of_rest = 0.01;  // of a row's torque
-constexpr double dependent = 1e-7;      // of the largest pivot: hats of every axis sum to one
+constexpr double dependent = 1e-7;  // of the largest pivot: hats of every axis sum to one
 
-std::vector<Index> sampled_rows(Recording const& recording, Motion const& motion, FilterOptions const& options,
-                                ParallelFilter const& filter) {
+std::vector<Index> sampled_rows(Motion const& motion, FilterOptions const& options, ParallelFilter const& filter) {
   auto const out = left_out_samples(motion, parallel_cutoff_of(options));
   VectorXd is_out(motion.q.size());
   for (Index k = 0; k < is_out.size(); ++k) is_out[k] = !out.empty() && out[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
-  auto const quiet = quiet_samples(recording, options, position_resolution(recording));
-  VectorXd const at_rest = filter.apply(
-      Eigen::Map<Eigen::Matrix<char, Eigen::Dynamic, 1> const>(quiet.data(), static_cast<Index>(quiet.size()))
-          .cast<double>());
   VectorXd const picked = filter.pick(is_out);
   Index const stride = (picked.size() + most_rows_beside - 1) / most_rows_beside;
   std::vector<Index> rows;
   for (Index i = 0; i < picked.size(); i += std::max<Index>(stride, 1))
-    if (picked[i] == 0.0 && std::abs(at_rest[i]) < share_of_rest) rows.push_back(i);
+    if (picked[i] == 0.0) rows.push_back(i);
   return rows;
 }
 
@@ -77,14 +70,13 @@ double TorqueBesideMotion::error() const {
 std::optional<TorqueBesideMotion> TorqueBesideMotion::of(Recording const& recording, FilterOptions const& options,
                                                          Regressor const& regressor, Section const& filter) {
   Motion const motion = differentiate(recording, options, filter);
-  return of(recording, motion, regressor.columns(motion), options, filter);
+  return of(motion, regressor.columns(motion), options, filter);
 }
 
-std::optional<TorqueBesideMotion> TorqueBesideMotion::of(Recording const& recording, Motion const& motion,
-                                                         MatrixXd const& model_columns, FilterOptions const& options,
-                                                         Section const& filter) {
+std::optional<TorqueBesideMotion> TorqueBesideMotion::of(Motion const& motion, MatrixXd const& model_columns,
+                                                         FilterOptions const& options, Section const& filter) {
   auto parallel = std::make_shared<ParallelFilter const>(options, motion.rate_hz, motion.q.size(), filter);
-  auto rows = sampled_rows(recording, motion, options, *parallel);
+  auto rows = sampled_rows(motion, options, *parallel);
   if (rows.empty()) return std::nullopt;
   TorqueBesideMotion beside(std::move(parallel), std::move(rows));
   auto const picked = [&](VectorXd const& signal) { return VectorXd(beside.filter_->pick(signal)(beside.rows_)); };

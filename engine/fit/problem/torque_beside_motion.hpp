@@ -3,7 +3,6 @@
 //
 // Motion     the model's columns, and beside them smooth functions of position and velocity, dry friction that depends
 //            on position and load: filtered like the torque
-// Rests      rows that hold torque of a rest are not looked at: static friction is no function of the motion
 // Shapes     n samples as recorded, r rows looked at (at most 20 000: evenly chosen)
 // Units      N m or N, s
 // Errors     none where differentiate() has none; too few rows: no value
@@ -24,10 +23,9 @@ class TorqueBesideMotion {
   // `filter`: the job's section, for the places in messages
   static std::optional<TorqueBesideMotion> of(Recording const& recording, FilterOptions const& options,
                                               Regressor const& regressor, Section const& filter);
-  // the same where motion [n] and the model's columns [n][k] are known already: of a joint of an arm
-  static std::optional<TorqueBesideMotion> of(Recording const& recording, Motion const& motion,
-                                              Eigen::MatrixXd const& model_columns, FilterOptions const& options,
-                                              Section const& filter);
+  // the same where the model's columns are known already: [n][k], of a joint of an arm
+  static std::optional<TorqueBesideMotion> of(Motion const& motion, Eigen::MatrixXd const& model_columns,
+                                              FilterOptions const& options, Section const& filter);
   // the same motion with another torque, [n]
   TorqueBesideMotion with(Eigen::VectorXd const& torque) const;
 

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/data/encoder_step.hpp"
 #include "engine/data/filter_checks.hpp"
-#include "engine/data/quiet_samples.hpp"
 #include "engine/data/spline_motion.hpp"
 #include "engine/infer/all_rows/sticking_shape.hpp"
 #include "engine/infer/pipeline/held_torque.hpp"
@@ -17,7 +18,9 @@ namespace {
 
 constexpr double per_band = 2.56, per_cutoff = 6.0;  // samples a second for each Hz
 constexpr double below_half_of_rate = 0.4;
+constexpr double noise_span = 4.0;      // of white noise, in standard deviations
 constexpr double reversal_steps = 1.5;  // of the encoder, before a direction counts
+constexpr double quiet_periods = 0.25;  // of the motion's cut-off, to either side
 
 FilterOptions driving_options(FilterOptions options, double rate_hz) {
   constexpr double most_of_rate = 0.4;
@@ -47,6 +50,41 @@ Eigen::Index law_step(ParallelFilter const& filter, double rate_hz, double band_
 
 Eigen::VectorXd thinned(Eigen::VectorXd const& signal, Eigen::Index first, Eigen::Index step) {
   return signal(Eigen::seqN(first, (signal.size() - first + step - 1) / step, step));
+}
+
+// largest minus smallest position within `reach` samples to either side
+Eigen::VectorXd moving_range(Eigen::VectorXd const& q, Eigen::Index reach) {
+  Eigen::Index const n = q.size();
+  Eigen::VectorXd range(n);
+  std::deque<Eigen::Index> high, low;
+  Eigen::Index next = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (; next < std::min(n, k + reach + 1); ++next) {
+      while (!high.empty() && q[high.back()] <= q[next]) high.pop_back();
+      while (!low.empty() && q[low.back()] >= q[next]) low.pop_back();
+      high.push_back(next);
+      low.push_back(next);
+    }
+    while (high.front() < k - reach) high.pop_front();
+    while (low.front() < k - reach) low.pop_front();
+    range[k] = q[high.front()] - q[low.front()];
+  }
+  return range;
+}
+
+// those within any window of that half width in which the position stays within one step
+std::vector<char> quiet_samples(Eigen::VectorXd const& q, Eigen::Index reach, double step) {
+  Eigen::VectorXd const range = moving_range(q, reach);
+  double const within = step * (1.0 + 1e-6);
+  std::vector<char> quiet(static_cast<std::size_t>(q.size()), 0);
+  Eigen::Index marked = 0;
+  for (Eigen::Index k = 0; k < q.size(); ++k) {
+    if (range[k] > within) continue;
+    Eigen::Index const end = std::min(q.size(), k + reach + 1);
+    for (Eigen::Index i = std::max(marked, k - reach); i < end; ++i) quiet[static_cast<std::size_t>(i)] = 1;
+    marked = end;
+  }
+  return quiet;
 }
 
 // A direction counts once the position has come back by `far` from where it turned, and from there on
@@ -116,6 +154,18 @@ Eigen::MatrixXd below_half_rate(Eigen::MatrixXd const& signals, StripFilters con
   return smooth_positions(signals, low, filters.rate_hz);
 }
 
+// Standard deviation of white noise, by fourth differences: what the motion bends is gone from them
+double noise_of(Eigen::VectorXd const& q) {
+  constexpr double of_differences = 8.366600265340756, median_of_normal = 0.6744897501960817;  // sqrt(70)
+  if (q.size() < 5) return 0.0;
+  std::vector<double> sizes;
+  for (Eigen::Index k = 2; k + 2 < q.size(); ++k)
+    sizes.push_back(std::abs(q[k - 2] - 4.0 * q[k - 1] + 6.0 * q[k] - 4.0 * q[k + 1] + q[k + 2]));
+  auto const middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle / (of_differences * median_of_normal);
+}
+
 }  // namespace
 
 std::shared_ptr<StripFilters const> strip_filters(Recording const& recording, FilterOptions const& options,
@@ -139,6 +189,11 @@ std::shared_ptr<StripFilters const> strip_filters(Recording const& recording, Fi
   return filters;
 }
 
+double position_resolution(Recording const& recording) {
+  double const step = encoder_step(recording);
+  return step > 0.0 ? step : noise_span * noise_of(recording.position);
+}
+
 Strip strip_of(Recording const& recording, std::shared_ptr<StripFilters const> const& filters, double resolution) {
   Strip strip;
   strip.filters = filters;
@@ -156,7 +211,11 @@ Strip strip_of(Recording const& recording, std::shared_ptr<StripFilters const> c
   strip.direction = thinned(below_half_rate(direction, *filters).col(0), first, step);
   strip.sides.resize(strip.direction.size(), sides.cols());
   for (Eigen::Index k = 0; k < sides.cols(); ++k) strip.sides.col(k) = thinned(sides.col(k), first, step);
-  auto const quiet = quiet_samples(recording, filters->options, strip.resolution);
+  // of a position that is not filtered, the torque's
+  double const band_hz = filters->options.cutoff_hz > 0.0 ? filters->options.cutoff_hz : filters->cutoff_hz;
+  double const cutoff_hz = band_hz > 0.0 ? band_hz : below_half_of_rate * filters->rate_hz;
+  auto const reach = static_cast<Eigen::Index>(std::ceil(quiet_periods / cutoff_hz * filters->rate_hz));
+  auto const quiet = quiet_samples(recording.position, reach, strip.resolution);
   for (Eigen::Index k = first; k < recording.position.size(); k += step)
     strip.is_quiet.push_back(quiet[static_cast<std::size_t>(k)]);
   Recording driving;

@@ -67,4 +67,7 @@ Eigen::MatrixXd drive_on_rows(Strip const& strip, Eigen::Ref<Eigen::MatrixXd con
 // a signal of the laws' rate at the drive's: the nearest sample
 Eigen::VectorXd at_drive_rate(Strip const& strip, Eigen::VectorXd const& signal);
 
+// what the position shows: the encoder's step, or four standard deviations of its noise
+double position_resolution(Recording const& recording);
+
 }  // namespace torquescope

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/data/quiet_samples.hpp"
 #include "unit/all_rows/plants.hpp"
 
 using namespace torquescope;

@@ -191,38 +191,6 @@ TEST(ComputedTorque, IsNoneOfATorqueThatMovesTheJoint) {
               })).empty());
 }
 
-// A controller pulls a joint with static friction along slow moves: it rests until the pull is enough. No function of
-// the measured motion tells the torque of those rests
-Recording pulled_out_of_rests(double moves) {
-  constexpr double stiffness = 120.0, friction = 0.75, amplitude = 1.0;
-  auto recording = controlled(-unlimited, unlimited, nothing_more);
-  auto const n = recording.position.size();
-  double q = 0.0;
-  for (Index i = 0; i < n; ++i) {
-    double const way = moves * static_cast<double>(i) / static_cast<double>(n), within = way - std::floor(way);
-    double const smooth = within * within * within * (10.0 + within * (6.0 * within - 15.0));
-    double const from = std::fmod(std::floor(way), 2.0);
-    double const reference = amplitude * (from > 0.0 ? 1.0 - smooth : smooth);
-    q = std::clamp(q, reference - friction / stiffness, reference + friction / stiffness);
-    recording.reference[i] = reference;
-    recording.position[i] = q;
-    recording.torque[i] = stiffness * (reference - q);
-  }
-  recording.torque += test::white_noise(n, 3, 0.012);
-  constexpr double count = 2.0 * pi / 360000.0;
-  recording.position = (recording.position / count).array().round() * count;
-  recording.rows.encoder_step = count;
-  return recording;
-}
-
-TEST(TorqueBesideMotion, LooksAtNoRowOfARest) {
-  for (double const moves : {3.0, 5.0, 8.0}) {
-    auto const recording = pulled_out_of_rests(moves);
-    EXPECT_LT(beside(recording).value().error(), 0.01) << moves;
-    EXPECT_TRUE(computed(recording).empty()) << moves;
-  }
-}
-
 // the joint does what it is told, so that the commanded motion is the true one
 TEST(ComputedTorque, IsNoneWhereOnlyTheMeasuredPositionIsWrong) {
   auto recording = controlled(-unlimited, unlimited, nothing_more);
