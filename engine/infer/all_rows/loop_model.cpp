@@ -54,7 +54,7 @@ LmOptions options_of(LoopQuestion const& question, LoopSearch search) {
   if (search != LoopSearch::to_its_end) {
     options.iterations = search == LoopSearch::a_look ? a_look : a_little;
     options.passes = 1;
-    options.has_intervals = false;
+    options.is_rough = true;
   }
   return options;
 }
@@ -148,6 +148,13 @@ LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch s
   result.train = errors_of(model, question.training, question.counts, result.point.starts);
   result.validation = errors_of(model, question.validation, question.counts, {});
   return result;
+}
+
+LoopFit with_intervals(LoopQuestion const& question, LoopFit fit, int threads) {
+  RolloutModel const model = fit.point.model(question);
+  LmOptions const options = options_of(question, LoopSearch::to_its_end);
+  fit.fit = with_intervals(std::move(fit.fit), model, question.training, question.counts, options, threads);
+  return fit;
 }
 
 double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels const& counts) {
