@@ -50,6 +50,9 @@ LmOptions options_of(LoopQuestion const& question, LoopSearch search) {
   options.fits_starts = question.fits_starts;
   // a quarter of what one parameter gains by chance once in twenty: ridges of two effects alike are long
   options.least_gain = 1.0;
+  // of many samples, a hundredth of the least fall of the error that makes a name
+  constexpr double hundredth = 0.01;
+  options.least_share = hundredth * -2.0 * std::log1p(-question.numbers.least_fall);
   constexpr std::int64_t a_look = 2, a_little = 8;
   if (search != LoopSearch::to_its_end) {
     options.iterations = search == LoopSearch::a_look ? a_look : a_little;

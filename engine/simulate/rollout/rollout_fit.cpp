@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "engine/base/dense_solvers.hpp"
@@ -120,6 +121,11 @@ class Search {
     return points;
   }
 
+  double least_gain() const {
+    double const squares = std::accumulate(effective_.begin(), effective_.end(), 0.0);
+    return std::max(options_.least_gain, options_.least_share * squares);
+  }
+
   // false: it has come to rest
   bool improve(FitPoint& at, double& best, bool is_rough) {
     constexpr double wider = 4.0, widest = 40.0;
@@ -136,7 +142,7 @@ class Search {
         sums_ = sums[first];
         best -= gain;
       }
-      if (gain > options_.least_gain) return true;
+      if (gain > least_gain()) return true;
       width_ *= wider;
     }
     return false;

@@ -35,6 +35,7 @@ struct LmOptions {
   bool fits_starts = true;  // nuisances of segments; never of windows
   // of the statistic, whose noise is a few: an iteration that gains less ends the search; no key of a job
   double least_gain = 0.1;
+  double least_share = 0.0;  // the same as a share of n_eff, a fall of ln S; no key of a job
   // every pass as those before the last, and no intervals: a first look; no key of a job
   bool is_rough = false;
 
