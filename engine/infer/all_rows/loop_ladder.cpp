@@ -38,7 +38,7 @@ class Ladder {
       facts_.reason = LoopReason::diverges;
       return {std::move(facts_), {}, {}};
     }
-    LoopFit const first = with_intervals(q_, base.fit, q_.threads);
+    LoopFit const first = base.fit;
     facts_.base_train = base.fit.train;
     facts_.base_validation = base.fit.validation;
     base_terms_ = base.fit.point.terms;
@@ -50,7 +50,6 @@ class Ladder {
       tell_progress(depth + 1);
     }
     drop_useless(best);
-    best.fit = with_intervals(q_, std::move(best.fit), q_.threads);
     tell(best);
     tell_progress(q_.most_moves + 1);
     return {std::move(facts_), first, best.fit};

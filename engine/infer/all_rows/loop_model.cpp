@@ -50,14 +50,11 @@ LmOptions options_of(LoopQuestion const& question, LoopSearch search) {
   options.fits_starts = question.fits_starts;
   // a quarter of what one parameter gains by chance once in twenty: ridges of two effects alike are long
   options.least_gain = 1.0;
-  // of many samples, a hundredth of the least fall of the error that makes a name
-  constexpr double hundredth = 0.01;
-  options.least_share = hundredth * -2.0 * std::log1p(-question.numbers.least_fall);
   constexpr std::int64_t a_look = 2, a_little = 8;
   if (search != LoopSearch::to_its_end) {
     options.iterations = search == LoopSearch::a_look ? a_look : a_little;
     options.passes = 1;
-    options.is_rough = true;
+    options.has_intervals = false;
   }
   return options;
 }
@@ -151,13 +148,6 @@ LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch s
   result.train = errors_of(model, question.training, question.counts, result.point.starts);
   result.validation = errors_of(model, question.validation, question.counts, {});
   return result;
-}
-
-LoopFit with_intervals(LoopQuestion const& question, LoopFit fit, int threads) {
-  RolloutModel const model = fit.point.model(question);
-  LmOptions const options = options_of(question, LoopSearch::to_its_end);
-  fit.fit = with_intervals(std::move(fit.fit), model, question.training, question.counts, options, threads);
-  return fit;
 }
 
 double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels const& counts) {

@@ -74,9 +74,6 @@ enum class LoopSearch { a_look, a_little, to_its_end };
 LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search = LoopSearch::to_its_end,
                int threads = 1);
 
-// its numbers with their intervals, which no fit has by itself
-LoopFit with_intervals(LoopQuestion const& question, LoopFit fit, int threads);
-
 // D of the larger model; n_eff of its residual
 double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels const& counts);
 // numbers of a move, or of the whole model

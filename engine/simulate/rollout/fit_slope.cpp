@@ -21,47 +21,20 @@ ChannelNumbers sums_of(std::vector<TrackResiduals> const& residuals, Index point
   return sums;
 }
 
-namespace {
-
-// two simulations, and how far apart they are in one parameter
-struct Difference {
-  Index more = 0, less = 0;  // places among the points
-  double step = 0.0;
-};
-
-// one of `differences` in each parameter, within its bounds; points[0] is where they are taken
-std::vector<Difference> differences_about(FitUnknowns const& unknowns, double width, Differences differences,
-                                          std::vector<FitPoint>& points) {
-  std::vector<Difference> all;
-  FitPoint const at = points.front();
-  for (Index k = 0; k < unknowns.size(); ++k) {
+FitSlope slope_at(FitUnknowns const& unknowns, FitPoint const& at, ChannelNumbers const& effective, double width,
+                  int threads) {
+  Index const p = unknowns.size();
+  std::vector<FitPoint> points{at};
+  Eigen::VectorXd steps(p);
+  for (Index k = 0; k < p; ++k) {
     double const h = width * unknowns.scale(at, k);
     FitPoint more = at, less = at;
     more[k] = unknowns.clipped(k, more[k] + h);
     less[k] = unknowns.clipped(k, less[k] - h);
-    FitPoint here = at;
-    bool const has_more = differences == Differences::central || more[k] - here[k] >= here[k] - less[k];
-    bool const has_less = differences == Differences::central || !has_more;
-    Difference one;
-    one.step = (has_more ? more[k] : here[k]) - (has_less ? less[k] : here[k]);
-    auto const put = [&](FitPoint& point) {
-      points.push_back(std::move(point));
-      return static_cast<Index>(points.size()) - 1;
-    };
-    if (has_more) one.more = put(more);
-    if (has_less) one.less = put(less);
-    all.push_back(one);
+    steps[k] = more[k] - less[k];
+    points.push_back(std::move(more));
+    points.push_back(std::move(less));
   }
-  return all;
-}
-
-}  // namespace
-
-FitSlope slope_at(FitUnknowns const& unknowns, FitPoint const& at, ChannelNumbers const& effective, double width,
-                  Differences differences, int threads) {
-  Index const p = unknowns.size();
-  std::vector<FitPoint> points{at};
-  auto const steps = differences_about(unknowns, width, differences, points);
   auto const residuals = unknowns.residuals_at(points, threads);
   ChannelNumbers const sums = sums_of(residuals, 0);
   FitSlope slope{Eigen::MatrixXd::Zero(p, p), Eigen::VectorXd::Zero(p), {}, {}};
@@ -72,10 +45,9 @@ FitSlope slope_at(FitUnknowns const& unknowns, FitPoint const& at, ChannelNumber
       double const weight = std::sqrt(effective[channel] / sums[channel]);
       Eigen::MatrixXd jacobian(samples.rows(), p);
       for (Index k = 0; k < p; ++k) {
-        auto const [more, less, step] = steps[static_cast<std::size_t>(k)];
-        if (step > 0.0) jacobian.col(k) = (samples.col(less) - samples.col(more)) * (weight / step);
+        if (steps[k] > 0.0) jacobian.col(k) = (samples.col(2 + 2 * k) - samples.col(1 + 2 * k)) * (weight / steps[k]);
         // a difference that ran away says nothing
-        if (!(step > 0.0) || !jacobian.col(k).allFinite()) jacobian.col(k).setZero();
+        if (!(steps[k] > 0.0) || !jacobian.col(k).allFinite()) jacobian.col(k).setZero();
       }
       Eigen::VectorXd residual = weight * samples.col(0);
       slope.curvature += jacobian.transpose() * jacobian;

@@ -1,6 +1,6 @@
 #pragma once
-// The slope of a fit by simulation at one point: normal equations of differences, each channel by its own noise, and
-// the intervals that follow from them.
+// The slope of a fit by simulation at one point: normal equations of central differences, each channel by its own
+// noise, and the intervals that follow from them.
 //
 // Equation   weight of channel c: n_eff,c / S_c; curvature = sum J' w J, descent = sum J' w r, r: measured - simulated
 // Intervals  95 %, Newey-West on the scores of all samples (problem/hac.hpp); of what is at a bound, or moves nothing,
@@ -23,11 +23,9 @@ struct FitSlope {
   std::vector<Eigen::VectorXd> residual;  // weighed
 };
 
-// forward: half the simulations of central ones, and an error of their width
-enum class Differences { central, forward };
 // width: of the differences, as a share of a parameter's scale
 FitSlope slope_at(FitUnknowns const& unknowns, FitPoint const& at, ChannelNumbers const& effective, double width,
-                  Differences differences, int threads);
+                  int threads);
 
 // of the model's parameters; NaN where there is none
 struct FitIntervals {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "engine/base/dense_solvers.hpp"
@@ -17,41 +16,41 @@ namespace {
 using Eigen::Index;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-std::size_t lane_groups(Index points) { return (static_cast<std::size_t>(points) + twin_lanes - 1) / twin_lanes; }
-
 // from one start to where the sum of both channels comes to rest
 class Search {
  public:
   Search(FitUnknowns const& unknowns, LmOptions const& options, int threads, StopAsked const& stop)
-      : unknowns_(unknowns), options_(options), threads_(threads), stop_(stop) {}
+      : unknowns_(unknowns), options_(options), threads_(threads), stop_(stop), width_(options.width) {}
 
   RolloutFit run(FitPoint at) {
     RolloutFit fit;
     double best = infinite;
     for (std::int64_t pass = 0; pass < options_.passes; ++pass) {
-      best = weighed(at);
+      weigh(at);
+      best = objective(sums_at({at}).front());
       if (!std::isfinite(best)) break;
       width_ = options_.width;
-      bool const is_rough = options_.is_rough || pass + 1 < options_.passes;
       for (std::int64_t i = 0; i < options_.iterations; ++i) {
         if (stop_ && stop_()) break;
         ++fit.iterations;
-        if (!improve(at, best, is_rough)) break;
+        if (!improve(at, best)) break;
       }
     }
     fit.failed = !std::isfinite(best);
     fit.parameters = at.parameters;
     fit.starts = at.starts;
-    fit.sums = sums_;
+    fit.sums = sums_at({at}).front();
     fit.effective = effective_;
     fit.objective = fit.failed ? infinite : best;
     for (Index k = 0; k < unknowns_.parameters(); ++k)
       if (unknowns_.is_at_bound(at, k))
         fit.at_bounds.push_back(unknowns_.model().parameters()[static_cast<std::size_t>(k)].name);
-    FitIntervals const none = no_intervals(unknowns_.parameters());
-    fit.errors = none.errors;
-    fit.lower = none.lower;
-    fit.upper = none.upper;
+    FitIntervals const intervals = fit.failed || !options_.has_intervals
+                                       ? no_intervals(unknowns_.parameters())
+                                       : intervals_of(unknowns_, at, slope(at, options_.width));
+    fit.errors = intervals.errors;
+    fit.lower = intervals.lower;
+    fit.upper = intervals.upper;
     fit.evaluations = evaluations_;
     return fit;
   }
@@ -62,12 +61,9 @@ class Search {
     return unknowns_.residuals_at(points, threads_);
   }
 
-  FitSlope slope(FitPoint const& at, bool is_rough) {
-    Index const central = 1 + 2 * unknowns_.size(), forward = 1 + unknowns_.size();
-    bool const is_forward = is_rough && lane_groups(forward) < lane_groups(central);
-    evaluations_ += is_forward ? forward : central;
-    return slope_at(unknowns_, at, effective_, width_, is_forward ? Differences::forward : Differences::central,
-                    threads_);
+  FitSlope slope(FitPoint const& at, double width) {
+    evaluations_ += 1 + 2 * unknowns_.size();
+    return slope_at(unknowns_, at, effective_, width, threads_);
   }
 
   std::vector<ChannelNumbers> sums_at(std::vector<FitPoint> const& points) {
@@ -85,10 +81,9 @@ class Search {
     return std::isfinite(value) ? value : infinite;
   }
 
-  // the objective here, after the independent squares of what is left have been counted anew
-  double weighed(FitPoint const& at) {
+  // independent squares of what is left here
+  void weigh(FitPoint const& at) {
     auto const residuals = residuals_at({at});
-    sums_ = sums_of(residuals, 0);
     effective_.fill(0.0);
     for (std::size_t t = 0; t < residuals.size(); ++t)
       for (std::size_t channel = 0; channel < n_channels; ++channel) {
@@ -100,7 +95,6 @@ class Search {
           first += segment.samples;
         }
       }
-    return objective(sums_);
   }
 
   // sixteen dampings from hardly any to a creep
@@ -121,17 +115,11 @@ class Search {
     return points;
   }
 
-  double least_gain() const {
-    double const squares = std::accumulate(effective_.begin(), effective_.end(), 0.0);
-    return std::max(options_.least_gain, options_.least_share * squares);
-  }
-
   // false: it has come to rest
-  bool improve(FitPoint& at, double& best, bool is_rough) {
+  bool improve(FitPoint& at, double& best) {
     constexpr double wider = 4.0, widest = 40.0;
-    double const last = is_rough ? options_.width : widest * options_.width;
-    while (width_ <= last) {
-      auto const candidates = steps_from(at, slope(at, is_rough));
+    while (width_ <= widest * options_.width) {
+      auto const candidates = steps_from(at, slope(at, width_));
       auto const sums = sums_at(candidates);
       std::size_t first = 0;
       for (std::size_t i = 1; i < sums.size(); ++i)
@@ -139,10 +127,9 @@ class Search {
       double const gain = best - objective(sums[first]);
       if (gain > 0.0) {
         at = candidates[first];
-        sums_ = sums[first];
         best -= gain;
       }
-      if (gain > least_gain()) return true;
+      if (gain > options_.least_gain) return true;
       width_ *= wider;
     }
     return false;
@@ -152,8 +139,8 @@ class Search {
   LmOptions const& options_;
   int threads_;
   StopAsked const& stop_;
-  ChannelNumbers effective_{}, sums_{};  // of the best point
-  double width_ = 0.0;
+  ChannelNumbers effective_{};
+  double width_;
   std::int64_t evaluations_ = 0;
 };
 
@@ -175,18 +162,6 @@ std::vector<Eigen::VectorXd> starts_of(RolloutModel const& model, LmOptions cons
     }
   }
   return starts;
-}
-
-RolloutFit intervals_known(RolloutFit fit, FitUnknowns const& unknowns, double width, int threads) {
-  if (fit.failed) return fit;
-  FitPoint const at{fit.parameters, fit.starts};
-  FitSlope const slope = slope_at(unknowns, at, fit.effective, width, Differences::central, threads);
-  fit.evaluations += 1 + 2 * unknowns.size();
-  FitIntervals intervals = intervals_of(unknowns, at, slope);
-  fit.errors = std::move(intervals.errors);
-  fit.lower = std::move(intervals.lower);
-  fit.upper = std::move(intervals.upper);
-  return fit;
 }
 
 }  // namespace
@@ -218,7 +193,6 @@ RolloutFit fit_rollouts(RolloutModel const& model, std::vector<RolloutTrack> con
   auto const starts = starts_of(model, options, seed);
   // of several starts each is followed a little way, and the best to its end
   LmOptions tried = options;
-  tried.is_rough = starts.size() > 1;
   constexpr std::int64_t a_little = 8;
   if (starts.size() > 1) tried.iterations = std::min(options.iterations, a_little);
   if (starts.size() > 1) tried.passes = 1;
@@ -234,7 +208,7 @@ RolloutFit fit_rollouts(RolloutModel const& model, std::vector<RolloutTrack> con
   if (starts.size() > 1) follow(Eigen::VectorXd(best.parameters), options);
   best.evaluations = evaluations;
   best.iterations = iterations;
-  return intervals_known(std::move(best), unknowns, options.width, threads);
+  return best;
 }
 
 RolloutFit fit_rollouts_from(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
@@ -243,12 +217,6 @@ RolloutFit fit_rollouts_from(RolloutModel const& model, std::vector<RolloutTrack
   FitPoint at = unknowns.begin_at(model.start());
   if (starts.size() == at.starts.size()) at.starts = starts;
   return Search(unknowns, options, threads, {}).run(std::move(at));
-}
-
-RolloutFit with_intervals(RolloutFit fit, RolloutModel const& model, std::vector<RolloutTrack> const& tracks,
-                          CountedChannels counts, LmOptions const& options, int threads) {
-  FitUnknowns const unknowns(model, tracks, counts, options.fits_starts);
-  return intervals_known(std::move(fit), unknowns, options.width, threads);
 }
 
 }  // namespace torquescope

@@ -5,8 +5,8 @@
 // Objective  sum over channels of n_eff ln S, S: the sum of squares over all tracks; n_eff of the residual where the
 //            fit stands, set anew once it has come to rest (effective_samples.hpp). Equal to least squares with each
 //            channel by its own noise
-// Jacobian   differences of `width` of a parameter's scale. The last pass takes central ones, and four times wider ones
-//            when no step is accepted: dry friction makes the sum rough. Earlier passes take forward ones where cheaper
+// Jacobian   central differences of `width` of a parameter's scale, all trials side by side; four times wider when no
+//            step is accepted, because dry friction makes the sum rough
 // Step       sixteen dampings at once, the best of them; parameters stay within their bounds
 // Nuisances  what each recording has of its own (fit_unknowns.hpp): its start, its offset
 // Intervals  95 %, Newey-West on the scores of all samples (problem/hac.hpp), the nuisances beside them
@@ -35,9 +35,7 @@ struct LmOptions {
   bool fits_starts = true;  // nuisances of segments; never of windows
   // of the statistic, whose noise is a few: an iteration that gains less ends the search; no key of a job
   double least_gain = 0.1;
-  double least_share = 0.0;  // the same as a share of n_eff, a fall of ln S; no key of a job
-  // every pass as those before the last, and no intervals: a first look; no key of a job
-  bool is_rough = false;
+  bool has_intervals = true;  // of the numbers; no key of a job
 
   static OptionTable<LmOptions> const& table();
 };
@@ -59,11 +57,8 @@ using StopAsked = std::function<bool()>;
 RolloutFit fit_rollouts(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
                         LmOptions const& options, int threads, std::uint64_t seed, StopAsked const& stop = {});
 
-// from one point, the nuisances with it: [0] where they begin at zero. Without intervals
+// from one point, the nuisances with it: [0] where they begin at zero
 RolloutFit fit_rollouts_from(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
                              Eigen::VectorXd const& starts, LmOptions const& options, int threads);
-// the fit with its intervals; of a model that begins where the fit came to rest
-RolloutFit with_intervals(RolloutFit fit, RolloutModel const& model, std::vector<RolloutTrack> const& tracks,
-                          CountedChannels counts, LmOptions const& options, int threads);
 
 }  // namespace torquescope

@@ -77,23 +77,6 @@ TEST(RolloutFit, GivesEveryRecordingAnOffsetOfItsOwn) {
   EXPECT_NEAR(std::sqrt(fit.sums[1] / (2.0 * samples)), 0.02, 0.005);
 }
 
-// many samples: what an iteration gains may be beyond chance, and no fall of the error
-TEST(RolloutFit, EndsWhereAnIterationLowersTheSquaresByLessThanAsked) {
-  PlainJoint const joint = dry_joint();
-  PlainController const controller = controller_of("pd");
-  std::vector<RolloutTrack> const tracks{recorded(joint, controller, moved(samples), {})};
-  RolloutModel const model = model_of(joint, free_loop(controller, tracks), tracks[0]);
-  LmOptions options;
-  options.passes = 1;
-  RolloutFit const whole = fit_rollouts(model, tracks, both, options, 1, 1);
-  options.least_share = 1e6;  // more than there is
-  RolloutFit const first = fit_rollouts(model, tracks, both, options, 1, 1);
-  EXPECT_GT(whole.iterations, 1);
-  EXPECT_EQ(first.iterations, 1);
-  EXPECT_GE(first.objective, whole.objective);
-  EXPECT_LT(first.evaluations, whole.evaluations);
-}
-
 struct UnknownEffect {
   std::string name;
   std::vector<double> truth;  // of those that are searched
