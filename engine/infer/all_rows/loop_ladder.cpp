@@ -38,7 +38,7 @@ class Ladder {
       facts_.reason = LoopReason::diverges;
       return {std::move(facts_), {}, {}};
     }
-    LoopFit const first = base.fit;
+    LoopFit const first = with_intervals(q_, base.fit, q_.threads);
     facts_.base_train = base.fit.train;
     facts_.base_validation = base.fit.validation;
     base_terms_ = base.fit.point.terms;
@@ -50,6 +50,7 @@ class Ladder {
       tell_progress(depth + 1);
     }
     drop_useless(best);
+    best.fit = with_intervals(q_, std::move(best.fit), q_.threads);
     tell(best);
     tell_progress(q_.most_moves + 1);
     return {std::move(facts_), first, best.fit};
@@ -65,7 +66,7 @@ class Ladder {
   LoopFit base_of(std::vector<LoopPoint> const& starts) const {
     if (starts.empty()) return fitted(q_, base_point(q_), LoopSearch::to_its_end, q_.threads);
     LoopFit const best = best_of(starts, q_.threads);
-    return best.fit.failed ? best : fitted(q_, best.point, LoopSearch::to_its_end, q_.threads);
+    return best.fit.failed ? best : followed(q_, best, q_.threads);
   }
 
   // gain over another, both by the noise that the other leaves
@@ -149,9 +150,9 @@ class Ladder {
 
   MoveRefusal refusal_of(Member const& parent, LoopFit const& fit, std::size_t move) const {
     if (fit.fit.failed || !(gain_of(parent.fit, fit, q_.counts) > 0.0)) return MoveRefusal::failed_fit;
-    if (is_at_bound(q_, parent.fit, fit, move)) return MoveRefusal::at_bound;
     if (is_too_small(fit, move)) return MoveRefusal::too_small;
-    return predicts_better(parent.fit.judged(q_), fit.judged(q_)) ? MoveRefusal::none : MoveRefusal::not_predicted;
+    if (!predicts_better(parent.fit.judged(q_), fit.judged(q_))) return MoveRefusal::not_predicted;
+    return is_at_bound(q_, parent.fit, fit, move) ? MoveRefusal::at_bound : MoveRefusal::none;
   }
 
   struct TriedMove {
@@ -159,20 +160,14 @@ class Ladder {
     MoveRefusal refusal = MoveRefusal::none;
   };
 
-  // each is followed to its end, unless it has come to a bound before
+  // each is followed to its end
   std::vector<TriedMove> tried(Member const& parent, std::vector<ScannedMove> const& asked) const {
     std::vector<TriedMove> all(asked.size());
     parallel_for(all.size(), q_.threads, [&](std::size_t i, int) {
       TriedMove& one = all[i];
       one.fit = begun_with(parent.fit, asked[i].move, asked[i].starts);
-      if (one.fit.fit.failed) {
-        one.refusal = MoveRefusal::failed_fit;
-      } else if (is_at_bound(q_, parent.fit, one.fit, asked[i].move)) {
-        one.refusal = MoveRefusal::at_bound;
-      } else {
-        one.fit = fitted(q_, one.fit.point);
-        one.refusal = refusal_of(parent, one.fit, asked[i].move);
-      }
+      if (!one.fit.fit.failed) one.fit = followed(q_, one.fit);
+      one.refusal = refusal_of(parent, one.fit, asked[i].move);
     });
     return all;
   }
@@ -281,7 +276,7 @@ class Ladder {
       double const least = gain - std::max(best.taken.at(move).level, others[i].level);
       if (q_.moves[others[i].move].subject == q_.moves[move].subject || others[i].gain < half_way * own_step) return;
       LoopFit fit = begun_with(without, others[i].move, others[i].starts);
-      if (!fit.fit.failed) fit = fitted(q_, fit.point);
+      if (!fit.fit.failed) fit = followed(q_, fit);
       if (fit.fit.failed || is_at_bound(q_, without, fit, others[i].move)) return;
       double const own = gain_of(without, fit, q_.counts);
       bool const is_as_good = own >= least || !predicts_better(fit.judged(q_), best.fit.judged(q_));

@@ -50,11 +50,13 @@ LmOptions options_of(LoopQuestion const& question, LoopSearch search) {
   options.fits_starts = question.fits_starts;
   // a quarter of what one parameter gains by chance once in twenty: ridges of two effects alike are long
   options.least_gain = 1.0;
+  // of many samples, a hundredth of the least fall of the error that makes a name
+  constexpr double hundredth = 0.01;
+  options.least_share = hundredth * -2.0 * std::log1p(-question.numbers.least_fall);
   constexpr std::int64_t a_look = 2, a_little = 8;
   if (search != LoopSearch::to_its_end) {
     options.iterations = search == LoopSearch::a_look ? a_look : a_little;
     options.passes = 1;
-    options.has_intervals = false;
   }
   return options;
 }
@@ -136,18 +138,43 @@ LoopPoint without_move(LoopQuestion const& question, LoopPoint const& point, std
   return less;
 }
 
-LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search, int threads) {
-  LmOptions const options = options_of(question, search);
+namespace {
+
+LoopFit fitted_by(LmOptions const& options, LoopQuestion const& question, LoopPoint const& from, int threads) {
   RolloutModel const begun = from.model(question);
   LoopFit result{from, fit_rollouts_from(begun, question.training, question.counts, from.starts, options, threads)};
   if (result.fit.failed) return result;
   result.point = moved_to(from, result.fit.parameters);
   result.point.starts = result.fit.starts;
-  if (search != LoopSearch::to_its_end) return result;
+  return result;
+}
+
+LoopFit with_errors(LoopQuestion const& question, LoopFit result) {
+  if (result.fit.failed) return result;
   RolloutModel const model = result.point.model(question);
   result.train = errors_of(model, question.training, question.counts, result.point.starts);
   result.validation = errors_of(model, question.validation, question.counts, {});
   return result;
+}
+
+}  // namespace
+
+LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search, int threads) {
+  LoopFit fit = fitted_by(options_of(question, search), question, from, threads);
+  return search == LoopSearch::to_its_end ? with_errors(question, std::move(fit)) : fit;
+}
+
+LoopFit followed(LoopQuestion const& question, LoopFit const& fit, int threads) {
+  LmOptions options = options_of(question, LoopSearch::to_its_end);
+  if (fit.fit.is_at_rest) options.passes = 1;
+  return with_errors(question, fitted_by(options, question, fit.point, threads));
+}
+
+LoopFit with_intervals(LoopQuestion const& question, LoopFit fit, int threads) {
+  RolloutModel const model = fit.point.model(question);
+  LmOptions const options = options_of(question, LoopSearch::to_its_end);
+  fit.fit = with_intervals(std::move(fit.fit), model, question.training, question.counts, options, threads);
+  return fit;
 }
 
 double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels const& counts) {
@@ -182,13 +209,21 @@ bool hangs_on(LoopQuestion const& question, LoopFit const& without, LoopFit cons
               std::size_t number) {
   auto const& range = model.parameters()[number];
   double const middle = range.is_logarithmic ? std::sqrt(range.lower * range.upper) : 0.5 * (range.lower + range.upper);
-  LoopFit inside{fit.point, fit_rollouts_from(model.with_held(number, middle), question.training, question.counts,
-                                              fit.point.starts, options_of(question, LoopSearch::a_little), 1)};
-  if (inside.fit.failed) return true;
-  // n_eff differs from fit to fit, and squares are compared here
-  inside.fit.effective = fit.fit.effective;
   double const least = (1.0 - question.numbers.least_fall) * gain_of(without, fit, question.counts);
-  return gain_of(without, inside, question.counts) < least;
+  LoopFit inside = fit;
+  for (LoopSearch const search : {LoopSearch::a_look, LoopSearch::a_little}) {
+    RolloutModel const held = inside.point.model(question).with_held(number, middle);
+    inside.fit = fit_rollouts_from(held, question.training, question.counts, inside.point.starts,
+                                   options_of(question, search), 1);
+    if (inside.fit.failed) return true;
+    inside.point = moved_to(inside.point, inside.fit.parameters);
+    inside.point.starts = inside.fit.starts;
+    // n_eff differs from fit to fit, and squares are compared here
+    inside.fit.effective = fit.fit.effective;
+    if (gain_of(without, inside, question.counts) >= least) return false;
+    if (inside.fit.is_at_rest) return true;
+  }
+  return true;
 }
 
 }  // namespace

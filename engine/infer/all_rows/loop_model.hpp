@@ -73,6 +73,11 @@ enum class LoopSearch { a_look, a_little, to_its_end };
 // a fit that is `failed` holds the point that it began at. Errors only of those followed to their end
 LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search = LoopSearch::to_its_end,
                int threads = 1);
+// to its end from where a fit stands; one at rest needs the last pass alone
+LoopFit followed(LoopQuestion const& question, LoopFit const& fit, int threads = 1);
+
+// its numbers with their intervals, which no fit has by itself
+LoopFit with_intervals(LoopQuestion const& question, LoopFit fit, int threads);
 
 // D of the larger model; n_eff of its residual
 double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels const& counts);

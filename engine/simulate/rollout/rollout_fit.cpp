@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "engine/base/dense_solvers.hpp"
@@ -26,31 +27,29 @@ class Search {
     RolloutFit fit;
     double best = infinite;
     for (std::int64_t pass = 0; pass < options_.passes; ++pass) {
-      weigh(at);
-      best = objective(sums_at({at}).front());
+      best = weighed(at);
       if (!std::isfinite(best)) break;
       width_ = options_.width;
       for (std::int64_t i = 0; i < options_.iterations; ++i) {
         if (stop_ && stop_()) break;
         ++fit.iterations;
-        if (!improve(at, best)) break;
+        fit.is_at_rest = !improve(at, best, pass + 1 < options_.passes);
+        if (fit.is_at_rest) break;
       }
     }
     fit.failed = !std::isfinite(best);
     fit.parameters = at.parameters;
     fit.starts = at.starts;
-    fit.sums = sums_at({at}).front();
+    fit.sums = sums_;
     fit.effective = effective_;
     fit.objective = fit.failed ? infinite : best;
     for (Index k = 0; k < unknowns_.parameters(); ++k)
       if (unknowns_.is_at_bound(at, k))
         fit.at_bounds.push_back(unknowns_.model().parameters()[static_cast<std::size_t>(k)].name);
-    FitIntervals const intervals = fit.failed || !options_.has_intervals
-                                       ? no_intervals(unknowns_.parameters())
-                                       : intervals_of(unknowns_, at, slope(at, options_.width));
-    fit.errors = intervals.errors;
-    fit.lower = intervals.lower;
-    fit.upper = intervals.upper;
+    FitIntervals const none = no_intervals(unknowns_.parameters());
+    fit.errors = none.errors;
+    fit.lower = none.lower;
+    fit.upper = none.upper;
     fit.evaluations = evaluations_;
     return fit;
   }
@@ -81,9 +80,10 @@ class Search {
     return std::isfinite(value) ? value : infinite;
   }
 
-  // independent squares of what is left here
-  void weigh(FitPoint const& at) {
+  // the objective here, after the independent squares of what is left have been counted anew
+  double weighed(FitPoint const& at) {
     auto const residuals = residuals_at({at});
+    sums_ = sums_of(residuals, 0);
     effective_.fill(0.0);
     for (std::size_t t = 0; t < residuals.size(); ++t)
       for (std::size_t channel = 0; channel < n_channels; ++channel) {
@@ -95,6 +95,7 @@ class Search {
           first += segment.samples;
         }
       }
+    return objective(sums_);
   }
 
   // sixteen dampings from hardly any to a creep
@@ -115,11 +116,24 @@ class Search {
     return points;
   }
 
+  double least_gain() const {
+    double const squares = std::accumulate(effective_.begin(), effective_.end(), 0.0);
+    return std::max(options_.least_gain, options_.least_share * squares);
+  }
+
+  // what a whole step would gain if the model were its plane, without bounds
+  static double promised(FitSlope const& slope) {
+    return slope.descent.dot(solve_semidefinite(slope.curvature, slope.descent));
+  }
+
   // false: it has come to rest
-  bool improve(FitPoint& at, double& best) {
+  bool improve(FitPoint& at, double& best, bool is_rough) {
     constexpr double wider = 4.0, widest = 40.0;
-    while (width_ <= widest * options_.width) {
-      auto const candidates = steps_from(at, slope(at, width_));
+    double const last = is_rough ? options_.width : widest * options_.width;
+    while (width_ <= last) {
+      FitSlope const here = slope(at, width_);
+      if (promised(here) < least_gain()) return false;
+      auto const candidates = steps_from(at, here);
       auto const sums = sums_at(candidates);
       std::size_t first = 0;
       for (std::size_t i = 1; i < sums.size(); ++i)
@@ -127,9 +141,10 @@ class Search {
       double const gain = best - objective(sums[first]);
       if (gain > 0.0) {
         at = candidates[first];
+        sums_ = sums[first];
         best -= gain;
       }
-      if (gain > options_.least_gain) return true;
+      if (gain > least_gain()) return true;
       width_ *= wider;
     }
     return false;
@@ -139,7 +154,7 @@ class Search {
   LmOptions const& options_;
   int threads_;
   StopAsked const& stop_;
-  ChannelNumbers effective_{};
+  ChannelNumbers effective_{}, sums_{};  // of the best point
   double width_;
   std::int64_t evaluations_ = 0;
 };
@@ -162,6 +177,18 @@ std::vector<Eigen::VectorXd> starts_of(RolloutModel const& model, LmOptions cons
     }
   }
   return starts;
+}
+
+RolloutFit intervals_known(RolloutFit fit, FitUnknowns const& unknowns, double width, int threads) {
+  if (fit.failed) return fit;
+  FitPoint const at{fit.parameters, fit.starts};
+  FitSlope const slope = slope_at(unknowns, at, fit.effective, width, threads);
+  fit.evaluations += 1 + 2 * unknowns.size();
+  FitIntervals intervals = intervals_of(unknowns, at, slope);
+  fit.errors = std::move(intervals.errors);
+  fit.lower = std::move(intervals.lower);
+  fit.upper = std::move(intervals.upper);
+  return fit;
 }
 
 }  // namespace
@@ -208,7 +235,7 @@ RolloutFit fit_rollouts(RolloutModel const& model, std::vector<RolloutTrack> con
   if (starts.size() > 1) follow(Eigen::VectorXd(best.parameters), options);
   best.evaluations = evaluations;
   best.iterations = iterations;
-  return best;
+  return intervals_known(std::move(best), unknowns, options.width, threads);
 }
 
 RolloutFit fit_rollouts_from(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
@@ -217,6 +244,12 @@ RolloutFit fit_rollouts_from(RolloutModel const& model, std::vector<RolloutTrack
   FitPoint at = unknowns.begin_at(model.start());
   if (starts.size() == at.starts.size()) at.starts = starts;
   return Search(unknowns, options, threads, {}).run(std::move(at));
+}
+
+RolloutFit with_intervals(RolloutFit fit, RolloutModel const& model, std::vector<RolloutTrack> const& tracks,
+                          CountedChannels counts, LmOptions const& options, int threads) {
+  FitUnknowns const unknowns(model, tracks, counts, options.fits_starts);
+  return intervals_known(std::move(fit), unknowns, options.width, threads);
 }
 
 }  // namespace torquescope

@@ -5,8 +5,8 @@
 // Objective  sum over channels of n_eff ln S, S: the sum of squares over all tracks; n_eff of the residual where the
 //            fit stands, set anew once it has come to rest (effective_samples.hpp). Equal to least squares with each
 //            channel by its own noise
-// Jacobian   central differences of `width` of a parameter's scale, all trials side by side; four times wider when no
-//            step is accepted, because dry friction makes the sum rough
+// Jacobian   central differences of `width` of a parameter's scale, all trials side by side. In the last pass they are
+//            four times wider where no step gains what the slope promises: dry friction makes the sum rough
 // Step       sixteen dampings at once, the best of them; parameters stay within their bounds
 // Nuisances  what each recording has of its own (fit_unknowns.hpp): its start, its offset
 // Intervals  95 %, Newey-West on the scores of all samples (problem/hac.hpp), the nuisances beside them
@@ -35,7 +35,7 @@ struct LmOptions {
   bool fits_starts = true;  // nuisances of segments; never of windows
   // of the statistic, whose noise is a few: an iteration that gains less ends the search; no key of a job
   double least_gain = 0.1;
-  bool has_intervals = true;  // of the numbers; no key of a job
+  double least_share = 0.0;  // the same as a share of n_eff, a fall of ln S; no key of a job
 
   static OptionTable<LmOptions> const& table();
 };
@@ -48,6 +48,7 @@ struct RolloutFit {
   double objective = 0.0;
   std::vector<std::string> at_bounds{};
   std::int64_t evaluations = 0, iterations = 0;
+  bool is_at_rest = false;  // no step of the last iteration gained what is asked
   bool failed = false;
 };
 
@@ -57,8 +58,11 @@ using StopAsked = std::function<bool()>;
 RolloutFit fit_rollouts(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
                         LmOptions const& options, int threads, std::uint64_t seed, StopAsked const& stop = {});
 
-// from one point, the nuisances with it: [0] where they begin at zero
+// from one point, the nuisances with it: [0] where they begin at zero. Without intervals
 RolloutFit fit_rollouts_from(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
                              Eigen::VectorXd const& starts, LmOptions const& options, int threads);
+// the fit with its intervals; of a model that begins where the fit came to rest
+RolloutFit with_intervals(RolloutFit fit, RolloutModel const& model, std::vector<RolloutTrack> const& tracks,
+                          CountedChannels counts, LmOptions const& options, int threads);
 
 }  // namespace torquescope

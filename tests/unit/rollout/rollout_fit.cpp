@@ -77,6 +77,46 @@ TEST(RolloutFit, GivesEveryRecordingAnOffsetOfItsOwn) {
   EXPECT_NEAR(std::sqrt(fit.sums[1] / (2.0 * samples)), 0.02, 0.005);
 }
 
+// many samples: what an iteration gains may be beyond chance, and no fall of the error
+TEST(RolloutFit, EndsWhereAnIterationLowersTheSquaresByLessThanAsked) {
+  PlainJoint const joint = dry_joint();
+  PlainController const controller = controller_of("pd");
+  std::vector<RolloutTrack> const tracks{recorded(joint, controller, moved(samples), {})};
+  RolloutModel const model = model_of(joint, free_loop(controller, tracks), tracks[0]);
+  LmOptions options;
+  options.passes = 1;
+  RolloutFit const whole = fit_rollouts(model, tracks, both, options, 1, 1);
+  options.least_share = 1e6;  // more than there is
+  RolloutFit const first = fit_rollouts(model, tracks, both, options, 1, 1);
+  EXPECT_GT(whole.iterations, 1);
+  EXPECT_EQ(first.iterations, 1);
+  EXPECT_GE(first.objective, whole.objective);
+  EXPECT_LT(first.evaluations, whole.evaluations);
+}
+
+// where the slope promises nothing, neither candidates nor wider differences are simulated
+TEST(RolloutFit, AtRestCostsOneSlope) {
+  PlainJoint joint = dry_joint();
+  joint.forward = joint.backward = 0.0;
+  PlainController const controller = controller_of("pd");
+  std::vector<RolloutTrack> const tracks{recorded(joint, controller, moved(samples), {})};
+  RolloutModel const model = model_of(joint, free_loop(controller, tracks), tracks[0]);
+  LmOptions options;
+  RolloutFit const rest = fit_rollouts(model, tracks, both, options, 1, 1);
+  LoopSetting loop = model.loop();
+  for (std::size_t k = 0; k < loop.free.size(); ++k)
+    loop.values[loop.free[k]] = rest.parameters[4 + static_cast<Eigen::Index>(k)];
+  RolloutModel const again(Regressor(joint_terms(), JointKind::revolute), rest.parameters.head(4),
+                           scales_of(tracks[0], joint), {}, loop);
+  options.passes = 1;
+  RolloutFit const fit = fit_rollouts_from(again, tracks, both, rest.starts, options, 1);
+  EXPECT_TRUE(rest.is_at_rest);
+  EXPECT_TRUE(fit.is_at_rest);
+  // its weights, then where it stands and two sides of each unknown
+  EXPECT_EQ(fit.evaluations, 1 + 1 + 2 * (rest.parameters.size() + rest.starts.size()));
+  EXPECT_EQ(fit.parameters, rest.parameters);
+}
+
 struct UnknownEffect {
   std::string name;
   std::vector<double> truth;  // of those that are searched
