@@ -173,10 +173,14 @@ std::string simulated_sentence(JointDiagnosis const& joint) {
   bool const predicts = std::isfinite(loop.base_validation.position);
   double const before = predicts ? loop.base_validation.position : loop.base_train.position;
   double const after = predicts ? loop.final_validation.position : loop.final_train.position;
+  std::string const fitted =
+      loop.fitted_share < 1.0
+          ? fmt::format(" Its numbers are fitted to {} of the training samples.", percent_text(loop.fitted_share))
+          : "";
   return fmt::format(
       "Simulated from its commands, the {} position is off by {} instead of {} of its motion, over all "
-      "samples.",
-      predicts ? "validation" : "training", percent_text(after), percent_text(before));
+      "samples.{}",
+      predicts ? "validation" : "training", percent_text(after), percent_text(before), fitted);
 }
 
 std::string effect_clauses(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {

@@ -58,6 +58,7 @@ DecisionAccount::Loop account_of(LoopFacts const& facts) {
   account.counts_torque = facts.counts[1];
   account.decides = facts.decides();
   account.loop_error = facts.loop_error;
+  account.fitted_share = facts.fitted_share;
   account.base_train = simulated_account(facts.base_train);
   account.base_validation = simulated_account(facts.base_validation);
   account.final_train = simulated_account(facts.final_train);

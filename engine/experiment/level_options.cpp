@@ -22,6 +22,8 @@ OptionTable<LevelOptions> const& LevelOptions::table() {
        {"same_columns", &LevelOptions::same_columns, "1", 0.0, 1.0,
         "energy by which columns may change from the recording to a replicate and still be computed once"},
        {"beam", &LevelOptions::beam, "1", 1.0, 100.0, "models that simulations follow at once"},
+       {"fitted_samples", &LevelOptions::fitted_samples, "1", 100.0, 1e9,
+        "of training, which simulations fit; of more, stretches spread over the time"},
        {"computed_torque", &LevelOptions::computed_torque, "1", 0.0, 1.0,
         "of the torque: an effect of the loop that leaves less of it was computed with it"},
        {"largest_loop_error", &LevelOptions::largest_loop_error, "1", 0.0, 10.0,

@@ -44,6 +44,8 @@ struct DecisionNumbers {
   double same_columns = 0.01;
   // models that a ladder follows at once: greedy steps fail on ties (engine/infer/all_rows/THEORY.md, In the loop)
   std::int64_t beam = 3;
+  // of training, which simulations fit; of more, stretches are spread over the time. Errors are of all samples
+  std::int64_t fitted_samples = 60000;
   // of the torque's rms: a gain of the position's error that leaves less is what the torque was computed with
   double computed_torque = 0.01;
   // of the torque's rms: an identified controller that leaves more is no law of this loop; no source

@@ -90,6 +90,7 @@ struct LoopFacts {
   LoopForm form = LoopForm::identified;
   CountedChannels counts{true, true};
   double loop_error = LoopErrors::none;  // of the loop's law on the measured positions, first recording
+  double fitted_share = 1.0;             // of the training samples; errors are of all
   bool has_validation = false;
   LoopErrors base_train{}, base_validation{}, final_train{}, final_validation{};
   std::vector<LoopStepFacts> steps{};

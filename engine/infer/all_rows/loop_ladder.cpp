@@ -39,7 +39,8 @@ class Ladder {
       return {std::move(facts_), {}, {}};
     }
     LoopFit const first = with_intervals(q_, base.fit, q_.threads);
-    facts_.base_train = base.fit.train;
+    facts_.base_train = training_errors(q_, base.fit);
+    facts_.fitted_share = share_fitted();
     facts_.base_validation = base.fit.validation;
     base_terms_ = base.fit.point.terms;
     Member best = base;
@@ -61,6 +62,15 @@ class Ladder {
     LoopFit fit;
     std::map<std::size_t, ScannedMove> taken{};  // as the step that took them saw them
   };
+
+  double share_fitted() const {
+    auto const samples = [](std::vector<RolloutTrack> const& tracks) {
+      double sum = 0.0;
+      for (auto const& track : tracks) sum += static_cast<double>(track.samples());
+      return sum;
+    };
+    return samples(q_.training) / samples(q_.recorded);
+  }
 
   // each start is followed a little, the best to its end
   LoopFit base_of(std::vector<LoopPoint> const& starts) const {
@@ -295,11 +305,11 @@ class Ladder {
       facts_.kept.push_back({q_.moves[move].subject, gain, best.taken.at(move).p, numbers_of(q_, best.fit, move),
                              rivals_of(best, i, gain)});
     }
-    facts_.final_train = best.fit.train;
+    facts_.final_train = training_errors(q_, best.fit);
     facts_.final_validation = best.fit.validation;
     facts_.numbers = numbers_of(q_, best.fit);
     auto const says_nothing = [](double error) { return error >= 1.0; };
-    bool const is_lost = says_nothing(best.fit.train.position) || says_nothing(best.fit.train.torque);
+    bool const is_lost = says_nothing(facts_.final_train.position) || says_nothing(facts_.final_train.torque);
     facts_.reason = is_lost ? LoopReason::predicts_nothing : LoopReason::decides;
   }
 

@@ -67,6 +67,9 @@ LoopErrors errors_of(RolloutModel const& model, std::vector<RolloutTrack> const&
   FitUnknowns const unknowns(model, tracks, counts, starts.size() > 0);
   FitPoint at = unknowns.begin_at(model.start());
   if (starts.size() == at.starts.size()) at.starts = starts;
+  // a whole recording begins elsewhere than its stretches; its offset is the same
+  else if (starts.size() > 0 && unknowns.offsets() > 0)
+    at.starts.tail(unknowns.offsets()) = starts.tail(unknowns.offsets());
   ChannelNumbers const left = sums_of(unknowns.residuals_at({at}, 1), 0);
   double position = 0.0, torque = 0.0;
   for (auto const& track : tracks) {
@@ -158,6 +161,10 @@ LoopFit with_errors(LoopQuestion const& question, LoopFit result) {
 }
 
 }  // namespace
+
+LoopErrors training_errors(LoopQuestion const& question, LoopFit const& fit) {
+  return errors_of(fit.point.model(question), question.recorded, question.counts, fit.point.starts);
+}
 
 LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search, int threads) {
   LoopFit fit = fitted_by(options_of(question, search), question, from, threads);

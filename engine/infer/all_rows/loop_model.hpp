@@ -30,7 +30,8 @@ struct LoopQuestion {
   Eigen::VectorXd const& start;  // of the regressor's parameters
   JointScales const& scales;
   LoopSetting const& loop;
-  std::vector<RolloutTrack> const& training;
+  std::vector<RolloutTrack> const& training;  // what is fitted: of long recordings stretches
+  std::vector<RolloutTrack> const& recorded;  // all of training
   std::vector<RolloutTrack> const& validation;
   CountedChannels counts{true, true};
   std::vector<LoopMove> moves{};
@@ -75,6 +76,9 @@ LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch s
                int threads = 1);
 // to its end from where a fit stands; one at rest needs the last pass alone
 LoopFit followed(LoopQuestion const& question, LoopFit const& fit, int threads = 1);
+
+// over all samples of training, whatever was fitted
+LoopErrors training_errors(LoopQuestion const& question, LoopFit const& fit);
 
 // its numbers with their intervals, which no fit has by itself
 LoopFit with_intervals(LoopQuestion const& question, LoopFit fit, int threads);

@@ -1,6 +1,8 @@
 #include "engine/infer/all_rows/loop_stage.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/infer/all_rows/loop_ladder.hpp"
@@ -25,6 +27,19 @@ Eigen::VectorXd possible_start(Regressor const& regressor, std::vector<FittedNum
   return start;
 }
 
+// each recording its share of what is fitted at most
+std::vector<RolloutTrack> fitted_stretches(std::vector<RolloutTrack> tracks, DecisionNumbers const& numbers) {
+  Eigen::Index all = 0;
+  for (auto const& track : tracks) all += track.samples();
+  double const share = static_cast<double>(numbers.fitted_samples) / static_cast<double>(all);
+  if (share >= 1.0) return tracks;
+  for (auto& track : tracks) {
+    auto const most = static_cast<Eigen::Index>(share * static_cast<double>(track.samples()));
+    track = in_stretches(std::move(track), most);
+  }
+  return tracks;
+}
+
 }  // namespace
 
 LoopFacts decide_in_loop(DecisionQuestion const& question, JointDecision const& scan, LoopOptions const& loop) {
@@ -39,9 +54,10 @@ LoopFacts decide_in_loop(DecisionQuestion const& question, JointDecision const& 
     if (is_found && !(facts.loop_error <= question.numbers.largest_loop_error)) return facts;
     JointScales const& scales = scan.baseline.model->reference().scales;
     Eigen::VectorXd const start = possible_start(question.regressor, scan.facts.baseline_parameters, scales);
-    LoopQuestion asked{question.regressor, start,           scales, tracks.setting,     tracks.training,
-                       tracks.validation,  tracks.counts,   {},     question.most_laws, question.numbers,
-                       question.seed,      question.threads};
+    std::vector<RolloutTrack> const stretches = fitted_stretches(tracks.training, question.numbers);
+    LoopQuestion asked{question.regressor, start,         scales, tracks.setting,     stretches,        tracks.training,
+                       tracks.validation,  tracks.counts, {},     question.most_laws, question.numbers, question.seed,
+                       question.threads};
     asked.progress = question.progress;
     asked.moves = drive_moves(tracks.setting, tracks.training, drive_laws_of(DriveLawKind::profile));
     for (auto& law : law_moves(scan.facts, question.regressor, scales, question.numbers))

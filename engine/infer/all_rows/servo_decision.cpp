@@ -78,7 +78,15 @@ std::vector<LoopPoint> starts_of(LoopQuestion const& question, Regressor const& 
 
 LoopQuestion asked_of(ServoQuestion const& question, Eigen::VectorXd const& terms, LoopSetting const& loop,
                       JointScales const& scales) {
-  LoopQuestion asked{question.regressor, terms, scales, loop, question.training, question.validation, {true, false}, {},
+  LoopQuestion asked{question.regressor,
+                     terms,
+                     scales,
+                     loop,
+                     question.training,
+                     question.training,
+                     question.validation,
+                     {true, false},
+                     {},
                      question.most_laws};
   asked.numbers = question.numbers;
   asked.seed = question.seed;

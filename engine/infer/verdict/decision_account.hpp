@@ -64,7 +64,7 @@ struct DecisionAccount {
   struct Loop {
     std::string reason{}, controller{};
     bool counts_torque = false, decides = false;
-    double loop_error = none;
+    double loop_error = none, fitted_share = 1.0;
     Simulated base_train{}, base_validation{}, final_train{}, final_validation{};
     std::vector<Rung> steps{};
     std::vector<Move> kept{};

@@ -34,6 +34,8 @@ class FitUnknowns {
   Eigen::Index size() const { return parameters() + n_starts_; }
   Eigen::Index parameters() const { return static_cast<Eigen::Index>(model_.size()); }
   FitPoint begin_at(Eigen::VectorXd const& parameters) const;
+  // offsets of the tracks, which are the last of the starts
+  Eigen::Index offsets() const { return first_offset_ < 0 ? 0 : n_starts_ - first_offset_; }
   // within its bounds
   double clipped(Eigen::Index k, double value) const;
   double scale(FitPoint const& at, Eigen::Index k) const;

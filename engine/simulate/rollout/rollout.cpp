@@ -264,8 +264,21 @@ std::size_t ticks_of_chunk(RolloutTrack const& track, bool has_weight) {
   return whole;
 }
 
-void roll_segment(RolloutTrack const& track, TrackSegment const& segment, Lanes const& lanes,
+// what has settled of rows [first, first + samples)
+void tell_settled(TrackSegment const& segment, Eigen::Index first, Eigen::Index samples, Chunk const& chunk,
+                  RolloutSink const& sink) {
+  Eigen::Index const skipped = std::clamp<Eigen::Index>(segment.first - first, 0, samples);
+  std::ptrdiff_t const at = skipped * static_cast<std::ptrdiff_t>(twin_lanes);
+  if (skipped < samples)
+    sink({first + skipped, samples - skipped, chunk.position.data() + at, chunk.velocity.data() + at,
+          chunk.torque.data() + at});
+}
+
+void roll_segment(RolloutTrack const& track, TrackSegment const& compared, Lanes const& lanes,
                   std::span<RolloutTrial const> trials, Chunk& chunk, RolloutSink const& sink) {
+  TrackSegment segment = compared;
+  segment.first -= compared.settling;
+  segment.samples += compared.settling;
   ChunkInputs inputs(track, segment, lanes.delay_ticks);
   LaneState state;
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
@@ -294,8 +307,8 @@ void roll_segment(RolloutTrack const& track, TrackSegment const& segment, Lanes 
     watch.look(chunk, ticks, state);
     for (auto* rows : {&chunk.position, &chunk.velocity, &chunk.torque})
       keep_samples(*rows, samples, track.ticks_per_sample);
-    sink({segment.first + static_cast<Eigen::Index>(first / track.ticks_per_sample), static_cast<Eigen::Index>(samples),
-          chunk.position.data(), chunk.velocity.data(), chunk.torque.data()});
+    tell_settled(compared, segment.first + static_cast<Eigen::Index>(first / track.ticks_per_sample),
+                 static_cast<Eigen::Index>(samples), chunk, sink);
   }
 }
 

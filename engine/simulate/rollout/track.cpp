@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/base/dense_solvers.hpp"
 #include "engine/base/error.hpp"
@@ -60,6 +61,15 @@ std::vector<TrackSegment> in_windows(std::vector<TrackSegment> const& runs, Eige
     for (Eigen::Index first = run.first; first < run.first + run.samples; first += length)
       windows.push_back({first, std::min(length, run.first + run.samples - first)});
   return windows;
+}
+
+// a segment of a run begins in the state that the recording measured there
+TrackSegment begun(TrackSegment segment, RolloutTrack const& track, TrackSegment const& run, bool has_torque) {
+  Eigen::Index const at = segment.first - segment.settling;
+  segment.position = track.position[at];
+  segment.velocity = velocity_at(track, run.first, at, run.first + run.samples);
+  segment.torque = has_torque ? track.torque[std::max(at - 1, run.first)] : std::numeric_limits<double>::quiet_NaN();
+  return segment;
 }
 
 }  // namespace
@@ -123,10 +133,28 @@ RolloutTrack track_of(Recording const& recording, TrackOptions const& options) {
   for (auto& segment : track.segments) {
     auto const run =
         std::find_if(runs.rbegin(), runs.rend(), [&](auto const& one) { return one.first <= segment.first; });
-    segment.position = track.position[segment.first];
-    segment.velocity = velocity_at(track, run->first, segment.first, run->first + run->samples);
-    segment.torque = options.has_torque ? track.torque[std::max(segment.first - 1, run->first)]
-                                        : std::numeric_limits<double>::quiet_NaN();
+    segment = begun(segment, track, *run, options.has_torque);
+  }
+  return track;
+}
+
+RolloutTrack in_stretches(RolloutTrack track, Eigen::Index most) {
+  // the first begins with the track, the last ends with it
+  constexpr Eigen::Index stretches = 4, settling_share = 4;
+  Eigen::Index const all = track.samples(), length = std::max(fewest_samples, most / stretches);
+  if (all <= std::max(most, stretches * length)) return track;
+  std::vector<TrackSegment> const runs = std::exchange(track.segments, {});
+  for (Eigen::Index i = 0; i < stretches; ++i) {
+    Eigen::Index const begin = i * (all - length) / (stretches - 1);
+    Eigen::Index before = 0;  // samples of the runs before
+    for (auto const& run : runs) {
+      Eigen::Index const from = std::max(begin - before, Eigen::Index{0});
+      Eigen::Index const until = std::min(begin + length - before, run.samples);
+      TrackSegment one{run.first + from, until - from};
+      one.settling = std::min(from, length / settling_share);
+      if (one.samples >= fewest_samples) track.segments.push_back(begun(one, track, run, !std::isnan(run.torque)));
+      before += run.samples;
+    }
   }
   return track;
 }

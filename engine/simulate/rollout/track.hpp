@@ -22,7 +22,8 @@ namespace torquescope {
 
 struct TrackSegment {
   Eigen::Index first = 0, samples = 0;
-  double position = 0.0, velocity = 0.0, torque = 0.0;  // at its start; torque NaN: not recorded
+  double position = 0.0, velocity = 0.0, torque = 0.0;  // where it begins; torque NaN: not recorded
+  Eigen::Index settling = 0;  // samples before `first` where it begins: simulated, not compared
 };
 
 enum class TrackDrive { reference, torque };
@@ -57,5 +58,9 @@ Eigen::VectorXd untold_positions(RolloutTrack const& track);
 
 // Errors     Error 65 where no run of samples is long enough to be simulated
 RolloutTrack track_of(Recording const& recording, TrackOptions const& options);
+
+// A track of more than `most` samples as four stretches of together as many, spread evenly over its time; another one
+// as it is. A stretch settles for a quarter of its length: what its loop and friction remember is not recorded
+RolloutTrack in_stretches(RolloutTrack track, Eigen::Index most);
 
 }  // namespace torquescope

@@ -50,6 +50,7 @@ nlohmann::ordered_json loop_json(DecisionAccount::Loop const& loop) {
           {"controller", loop.controller},
           {"counts_torque", loop.counts_torque},
           {"loop_error", json_number(loop.loop_error)},
+          {"fitted_share", json_number(loop.fitted_share)},
           {"base", {{"train", errors(loop.base_train)}, {"validation", errors(loop.base_validation)}}},
           {"final", {{"train", errors(loop.final_train)}, {"validation", errors(loop.final_validation)}}},
           {"kept", json_list(loop.kept, kept_move_json)},

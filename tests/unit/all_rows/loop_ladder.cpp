@@ -25,12 +25,13 @@ struct Planted {
   double speed_limit = 0.0, delay_s = 0.0, cogging = 0.0, spring = 0.0;  // 0: none
   double hardening = 0.0, rest = 0.0;                                    // of the spring
   std::uint64_t seed = 1;
+  double seconds = 6.0;
 };
 
 // two sines and a step now and then, as a servo is sent
-std::vector<double> commanded(double pace) {
+std::vector<double> commanded(double pace, double seconds) {
   std::vector<double> goal;
-  for (int k = 0; k < 600; ++k) {
+  for (int k = 0; k < seconds * rate_hz; ++k) {
     double const t = k / rate_hz * pace;
     double const steps = std::fmod(t, 2.0) < 1.0 ? 0.0 : 0.5;
     goal.push_back(0.6 * std::sin(turn * 0.4 * t) + 0.3 * std::sin(turn * 0.9 * t + 1.0) + steps - 0.25);
@@ -65,13 +66,13 @@ RolloutTrack recorded(Planted const& planted, double pace) {
   PlainInputs inputs;
   inputs.rate_hz = rate_hz;
   inputs.straight = true;
-  inputs.reference = led(commanded(pace), planted.speed_limit);
+  inputs.reference = led(commanded(pace, planted.seconds), planted.speed_limit);
   PlainStart const start{inputs.reference.front(), 0.0, 0.0};
   PlainMotion motion = PlainLoop(joint, controller, inputs, start, 10, encoder_step).run();
   RandomStream random({planted.seed, 0, RandomDomain::test}, 0, static_cast<std::uint32_t>(pace * 100.0));
   for (double& torque : motion.torque) torque += 0.01 * random.normal();
   for (double& position : motion.position) position += 5e-4 * random.normal();
-  inputs.reference = commanded(pace);
+  inputs.reference = commanded(pace, planted.seconds);
   RolloutTrack track = track_of(inputs, {start.position, 0.0, 0.0}, motion);
   track.straight_reference = true;
   track.encoder_step = encoder_step;
@@ -83,9 +84,9 @@ struct Asked {
   Eigen::VectorXd start = Eigen::Vector4d(0.04, 0.7, 0.07, 0.0);
   JointScales scales{};
   LoopSetting loop{};
-  std::vector<RolloutTrack> training, validation;
+  std::vector<RolloutTrack> training, recorded, validation;  // recorded: all of training
   LoopQuestion question(int threads) const {
-    LoopQuestion question{terms, start, scales, loop, training, validation};
+    LoopQuestion question{terms, start, scales, loop, training, recorded, validation};
     question.moves = drive_moves(loop, training, drive_laws_of(DriveLawKind::profile));
     question.moves.push_back(law_move(*find_effect("cogging"), {7.1}, scales));
     question.moves.push_back(law_move(*find_effect("asymmetric_viscous"), {}, scales));
@@ -100,6 +101,7 @@ struct Asked {
 Asked asked_of(Planted const& planted) {
   Asked asked;
   asked.training.push_back(recorded(planted, 1.0));
+  asked.recorded = asked.training;
   asked.validation.push_back(recorded(planted, 0.83));
   RolloutTrack const& track = asked.training.front();
   asked.scales.rate_hz = rate_hz;
@@ -172,14 +174,34 @@ TEST(LoopLadder, PoolsRecordingsOfOneJoint) {
   Planted const planted{.speed_limit = 1.8};
   Asked asked = asked_of(planted);
   asked.training.push_back(recorded(planted, 0.7));
+  asked.recorded = asked.training;
   LoopFacts const facts = asked.climbed(2);
   ASSERT_EQ(names_of(facts), Names{"goal_speed_limit"});
   EXPECT_NEAR(facts.kept[0].numbers[0].value, 1.8, 0.05);
 }
 
+// what lies between the stretches is wrong here: no fit sees it, and the error of training does
+TEST(LoopLadder, FitsStretchesAndTellsErrorsOfAllSamples) {
+  Asked asked = asked_of({.speed_limit = 1.8, .seconds = 48.0});
+  RolloutTrack& track = asked.training.front();
+  track = in_stretches(track, track.samples() / 2);
+  RolloutTrack& all = asked.recorded.front();
+  all.position.array() += 0.1;
+  for (auto const& segment : track.segments) all.position.segment(segment.first, segment.samples).array() -= 0.1;
+  LoopQuestion question = asked.question(1);
+  question.moves = drive_moves(question.loop, asked.training, drive_laws_of(DriveLawKind::profile));
+  LoopFacts const facts = climb_ladder(question).facts;
+  ASSERT_EQ(names_of(facts), Names{"goal_speed_limit"});
+  EXPECT_NEAR(facts.kept[0].numbers[0].value, 1.8, 0.05);
+  EXPECT_NEAR(facts.fitted_share, 0.5, 0.01);
+  EXPECT_LT(facts.final_validation.position, 0.3 * facts.base_validation.position);
+  EXPECT_GT(facts.final_train.position, 10.0 * facts.final_validation.position);
+}
+
 TEST(LoopLadder, SaysThatAModelPredictsNothing) {
   Asked asked = asked_of({});
   asked.training.front().position *= -1.0;
+  asked.recorded = asked.training;
   EXPECT_NE(asked.climbed(1).reason, LoopReason::decides);
 }
 

@@ -50,6 +50,46 @@ Recording recorded() {
   return recording;
 }
 
+TEST(Track, StretchesAreSpreadOverItsTimeAndBeginAsMeasured) {
+  Recording recording = recorded();
+  recording.left_out = {{1.5, 1.7}};
+  RolloutTrack const whole = track_of(recording, {});
+  constexpr Eigen::Index most = 400;
+  RolloutTrack const track = in_stretches(whole, most);
+  EXPECT_LE(track.samples(), most);
+  EXPECT_GT(track.samples(), most - 8);
+  EXPECT_EQ(track.segments.front().first, 0);
+  EXPECT_EQ(track.segments.back().first + track.segments.back().samples, samples);
+  Eigen::Index end = 0;
+  for (auto const& segment : track.segments) {
+    EXPECT_GE(segment.first, end);
+    end = segment.first + segment.samples;
+    Eigen::Index const begin = segment.first - segment.settling;
+    EXPECT_EQ(segment.settling, segment.first == 0 ? 0 : most / 4 / 4);
+    EXPECT_EQ(segment.position, recording.position[begin]);
+    EXPECT_NEAR(segment.velocity, recording.velocity[begin], 0.02);
+    EXPECT_EQ(segment.torque, recording.torque[std::max<Eigen::Index>(begin - 1, 0)]);
+    double const from_s = static_cast<double>(segment.first) / rate_hz,
+                 until_s = static_cast<double>(end - 1) / rate_hz;
+    EXPECT_TRUE(until_s <= 1.5 || from_s >= 1.7) << from_s;
+  }
+  EXPECT_EQ(in_stretches(whole, samples).samples(), whole.samples());
+}
+
+// the simulation of a stretch is that of a segment which begins where it settles, less what it settles for
+TEST(Track, WhatSettlesIsSimulatedAndNotCompared) {
+  RolloutTrack whole = track_of(recorded(), {}), settled = whole;
+  whole.segments = {{300, 700, 0.1, 0.2, 0.3}};
+  settled.segments = {{450, 550, 0.1, 0.2, 0.3, 150}};
+  RolloutTrial const trial = trial_of(joint(), controller);
+  Rolled const all = rolled(whole, structure_of(controller), {trial});
+  Rolled const told = rolled(settled, structure_of(controller), {trial});
+  EXPECT_TRUE(same_bits(told.position.middleRows(450, 550), all.position.middleRows(450, 550)));
+  EXPECT_TRUE(same_bits(told.torque.middleRows(450, 550), all.torque.middleRows(450, 550)));
+  EXPECT_TRUE(told.position.topRows(450).array().isNaN().all());
+  EXPECT_TRUE(all.position.middleRows(300, 150).allFinite());
+}
+
 TEST(Track, BeginsAnewBehindEveryGap) {
   Recording recording = recorded();
   recording.left_out = {{0.5, 0.7}, {2.0, 2.5}, {3.0, 3.3}, {3.31, 3.6}};
