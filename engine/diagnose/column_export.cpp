@@ -72,7 +72,7 @@ ColumnExport export_columns(DiagnosisInput const& input) {
   std::vector<Effect const*> laws;
   for (auto const* effect : input.candidates)
     if (effect->exists_on(scales.joint)) laws.push_back(effect);
-  auto const questions = law_questions(laws, scales, sticking_bounds(strips.training.front().resolution).most_length);
+  auto const questions = law_questions(laws, scales, sticking_bounds(strips.training->front().resolution).most_length);
   FittedStrips const& fitted = *model.fitted;
   Score const score(fitted.chosen().fit.columns, fitted.residual(), fitted.guard());
   auto const found = scan_recording(questions, fitted, score, input.threads);
@@ -89,7 +89,7 @@ ColumnExport export_columns(DiagnosisInput const& input) {
     else
       result.not_testable.push_back(questions[i].effect);
   }
-  result.train = record_columns(all.train.name, model, strips.training.front(), result.candidates);
+  result.train = record_columns(all.train.name, model, strips.training->front(), result.candidates);
   for (std::size_t k = 0; k < all.validate.size(); ++k)
     result.validate.push_back(record_columns(all.validate[k].name, model, strips.validation[k], result.candidates));
   return result;

@@ -135,7 +135,7 @@ EffectAccount account_of(JointDecision const& decision, MismatchRows const& rows
 
 std::vector<TorqueTrace> traces_of(JointDecision const& decision, DecisionQuestion const& question) {
   bool const predicts = !decision.rows.validation.empty();
-  auto const& strips = predicts ? decision.rows.validation : decision.rows.training;
+  auto const& strips = predicts ? decision.rows.validation : *decision.rows.training;
   auto const recordings = predicts ? question.validation : question.training;
   std::vector<TorqueTrace> traces;
   for (std::size_t i = 0; i < strips.size(); ++i)

@@ -16,8 +16,9 @@ namespace torquescope {
 namespace {
 
 // measured, one effect found (tests/unit/workflows/diagnosis_estimate.cpp)
-constexpr double cpu_s_per_sample = 2e-3, cpu_s_per_row_replicate = 7e-4, most_cores_used = 8.0;
-constexpr double bytes_at_least = 3e7, bytes_per_sample = 1400.0, bytes_per_row_replicate = 600.0;
+constexpr double cpu_s_per_fitted = 8e-4, cpu_s_per_sample = 1e-4, cpu_s_per_row_replicate = 3e-4;
+constexpr double most_cores_used = 8.0;
+constexpr double bytes_at_least = 5e7, bytes_per_sample = 300.0, bytes_per_row_replicate = 250.0;
 // rows a second for each Hz of the parallel cut-off (all_rows/strip.cpp)
 constexpr double rows_per_cutoff = 2.56;
 // from here on fewer rows are worth a word
@@ -42,10 +43,14 @@ std::string rough_count(double count) {
   return count < 1e5 ? fmt::format("{:.0f}", count) : two_digits(count / 1e6) + " million";
 }
 
-// so many that a name can come out
-double replicates_of(Experiment::Parts const& parts) {
+DecisionNumbers numbers_of(Experiment::Parts const& parts) {
   DecisionNumbers numbers = decision_numbers(parts.diagnose, parts.levels);
   numbers.alpha = numbers.alpha_of_joint(parts.joints());
+  return numbers;
+}
+
+// so many that a name can come out
+double replicates_of(DecisionNumbers const& numbers) {
   return std::max(static_cast<double>(numbers.replicates), std::ceil(1.0 / numbers.correction_alpha()));
 }
 
@@ -56,17 +61,20 @@ DiagnosisSize diagnosis_size(Experiment::Parts const& parts) {
   size.samples = samples_in(parts.train);
   double const rate_hz = parts.train.recordings.front().rate_hz, cutoff_hz = parallel_cutoff_of(parts.filter);
   size.rows = cutoff_hz > 0.0 ? size.samples * std::min(1.0, rows_per_cutoff * cutoff_hz / rate_hz) : size.samples;
-  size.replicates = replicates_of(parts);
+  DecisionNumbers const numbers = numbers_of(parts);
+  size.replicates = replicates_of(numbers);
+  size.most_fitted = static_cast<double>(numbers.fitted_samples);
   size.joints = static_cast<double>(parts.joints());
-  size.unseen_samples = parts.validate ? samples_in(*parts.validate) : 0.0;
+  size.validation_samples = parts.validate ? samples_in(*parts.validate) : 0.0;
   return size;
 }
 
 DiagnosisEstimate estimate_diagnosis(DiagnosisSize const& size, int threads) {
   double const cpu_s =
-      size.joints * (cpu_s_per_sample * size.samples + cpu_s_per_row_replicate * size.rows * size.replicates);
+      size.joints * (cpu_s_per_fitted * std::min(size.samples, size.most_fitted) + cpu_s_per_sample * size.samples +
+                     cpu_s_per_row_replicate * size.rows * size.replicates);
   double const cores = std::clamp(static_cast<double>(threads), 1.0, most_cores_used);
-  return {cpu_s / cores, bytes_at_least + bytes_per_sample * (size.samples + size.unseen_samples) +
+  return {cpu_s / cores, bytes_at_least + bytes_per_sample * (size.samples + size.validation_samples) +
                              bytes_per_row_replicate * size.rows * size.replicates};
 }
 

@@ -87,7 +87,7 @@ ArmRowsOfJoint rows_of_joint(DecidedJoint const& joint, Eigen::Index laws) {
   made.training.laws = shared_rows(*joint.model.fitted, of_laws).shared;
   made.training.torque_energy = joint.strips.training_energy;
   std::size_t recording = 0;
-  for (Strip const& strip : joint.strips.training) add_strip(made.training, strip, joint.begins_s[recording++]);
+  for (Strip const& strip : *joint.strips.training) add_strip(made.training, strip, joint.begins_s[recording++]);
   for (Strip const& strip : joint.strips.validation) {
     RowsOfJoint one{joint.joint, predicted_rows(joint.model, strip, joint.shared).rows,
                     predicted_rows(joint.model, strip, of_laws).rows.shared};

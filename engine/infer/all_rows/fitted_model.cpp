@@ -32,12 +32,12 @@ BaselineReference sizes_of(Regressor const& regressor, FittedStrips const& fitte
 
 double JointStrips::torque_rms() const {
   std::size_t rows = 0;
-  for (auto const& strip : training) rows += strip.rows.size();
+  for (auto const& strip : *training) rows += strip.rows.size();
   return std::sqrt(training_energy / static_cast<double>(rows));
 }
 
 void count_torque(JointStrips& rows) {
-  rows.training_energy = torque_energy(rows.training);
+  rows.training_energy = torque_energy(*rows.training);
   rows.validation_energy = torque_energy(rows.validation);
 }
 
@@ -49,7 +49,7 @@ JointStrips joint_strips(DecisionQuestion const& question) {
       all.push_back(strip_of(one, strip_filters(one, question.filter, question.filter_section)));
     return all;
   };
-  rows.training = strips(question.training);
+  rows.training = share(strips(question.training));
   rows.validation = strips(question.validation);
   count_torque(rows);
   return rows;

@@ -16,7 +16,8 @@
 namespace torquescope {
 
 struct JointStrips {
-  std::vector<Strip> training{}, validation{};
+  SharedStrips training = share({});
+  std::vector<Strip> validation{};
   double training_energy = 0.0, validation_energy = 0.0;  // of the torque
   double torque_rms() const;                              // in training
 };

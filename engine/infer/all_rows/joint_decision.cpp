@@ -52,7 +52,7 @@ class Search {
   JointStrips const& rows() const { return result_.rows; }
   JointScales const& scales() const { return result_.baseline.model->reference().scales; }
   DelayChoice free_delay() const { return {DelaySearch::everywhere, q_.numbers.longest_delay_s}; }
-  double shortest_way() const { return sticking_bounds(rows().training.front().resolution).most_length; }
+  double shortest_way() const { return sticking_bounds(rows().training->front().resolution).most_length; }
 
   void tell(char const* stage, std::size_t done, std::size_t total) const {
     if (q_.progress) q_.progress(stage, done, total);
@@ -80,7 +80,7 @@ class Search {
 
   void note_rows() {
     double quiet = 0.0, duration = 0.0, kept = 0.0;
-    for (auto const& strip : rows().training) {
+    for (auto const& strip : *rows().training) {
       quiet += strip.quiet_share() * strip.duration_s();
       kept += strip.row_share() * strip.duration_s();
       duration += strip.duration_s();
@@ -398,7 +398,7 @@ class Search {
   void count_all_rows_alike() {
     if (!q_.weighs_rows) return;
     for (auto* left : {&result_.baseline_replicates, &result_.final_replicates})
-      if (auto const& weight = rows().training.front().row_weight; weight.size() == left->rows())
+      if (auto const& weight = rows().training->front().row_weight; weight.size() == left->rows())
         *left = weight.cwiseInverse().asDiagonal() * *left;
     result_.rows = unweighed_rows(std::move(result_.rows));
     result_.baseline = fitted_alike(rows(), result_.baseline);

@@ -78,9 +78,9 @@ double gain_at(LawQuestion const& question, std::size_t point, FittedStrips cons
 
 }  // namespace
 
-FittedStrips::FittedStrips(JointModel const& model, std::vector<Strip> strips, DelayChoice const& delay)
+FittedStrips::FittedStrips(JointModel const& model, SharedStrips strips, DelayChoice const& delay)
     : strips_(std::move(strips)),
-      on_(std::make_unique<ModelOnStrips>(model, std::span<Strip const>(strips_))),
+      on_(std::make_unique<ModelOnStrips>(model, std::span<Strip const>(*strips_))),
       chosen_(chosen_treatment(*on_, delay)),
       residual_(chosen_.fit.residual),
       parameters_(chosen_.fit.parameters) {
@@ -95,7 +95,7 @@ void FittedStrips::add_noise(Eigen::VectorXd const& noise) {
   residual_ += noise - chosen_.fit.columns * step;
 }
 
-Eigen::Index FittedStrips::guard() const { return strips_.front().memory(); }
+Eigen::Index FittedStrips::guard() const { return strips_->front().memory(); }
 
 Eigen::MatrixXd law_on_rows(FittedStrips const& fitted, Effect const& effect,
                             std::vector<std::vector<double>> const& shapes) {

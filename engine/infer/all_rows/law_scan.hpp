@@ -21,9 +21,10 @@ namespace torquescope {
 class FittedStrips {
  public:
   // model outlives it
-  FittedStrips(JointModel const& model, std::vector<Strip> strips, DelayChoice const& delay);
+  FittedStrips(JointModel const& model, SharedStrips strips, DelayChoice const& delay);
 
-  std::span<Strip const> strips() const { return strips_; }
+  std::span<Strip const> strips() const { return *strips_; }
+  SharedStrips const& shared_strips() const { return strips_; }
   ModelOnStrips const& on() const { return *on_; }
   ChosenTreatment const& chosen() const { return chosen_; }
   Eigen::VectorXd const& residual() const { return residual_; }  // with the noise, of the linear fit
@@ -35,7 +36,7 @@ class FittedStrips {
   void add_noise(Eigen::VectorXd const& noise);
 
  private:
-  std::vector<Strip> strips_;
+  SharedStrips strips_;
   std::unique_ptr<ModelOnStrips> on_;
   ChosenTreatment chosen_;
   Eigen::VectorXd residual_, parameters_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +22,12 @@ namespace {
 constexpr std::size_t draws_for_each = 3;
 constexpr std::size_t fewest = 24;
 constexpr std::size_t at_once = 8;  // before it is asked whether they are enough: a divisor of `fewest`
+
+// a replicate that leaves more than the recording
+struct Beyond {
+  double energy = 0.0;
+  std::size_t replicate = 0;
+};
 
 class Replicates {
  public:
@@ -41,13 +48,9 @@ class Replicates {
     auto const wanted = static_cast<std::size_t>(q_.numbers.replicates);
     for (std::size_t first = 0; first < draws_for_each * wanted && count() < wanted; first += twin_lanes) {
       tell(wanted);
-      if (take(within(drawn(first)), questions)) break;
+      if (take(within(drawn(first), first), questions)) break;
     }
-    if (count() < fewest && !is_decided()) {
-      std::vector<FittedStrips> nearest = std::exchange(nearest_, {});
-      keep_first(nearest, fewest - count());
-      take(std::move(nearest), questions);
-    }
+    if (count() < fewest && !is_decided()) take(nearest(fewest - count()), questions);
     tell(count());
     return std::move(result_);
   }
@@ -92,7 +95,7 @@ class Replicates {
     }
     std::vector<std::unique_ptr<FittedStrips>> each(twin_lanes);
     parallel_for(twin_lanes, q_.threads, [&](std::size_t t, int) {
-      each[t] = std::make_unique<FittedStrips>(*task_.model.model, std::move(strips[t]),
+      each[t] = std::make_unique<FittedStrips>(*task_.model.model, share(std::move(strips[t])),
                                                DelayChoice{DelaySearch::everywhere, q_.numbers.longest_delay_s});
     });
     std::vector<FittedStrips> fitted;
@@ -100,21 +103,39 @@ class Replicates {
     return fitted;
   }
 
-  static void keep_first(std::vector<FittedStrips>& all, std::size_t count) {
-    if (all.size() > count) all.erase(all.begin() + static_cast<std::ptrdiff_t>(count), all.end());
-  }
-
-  // those that leave no more than the recording; of the others the nearest are kept aside
-  std::vector<FittedStrips> within(std::vector<FittedStrips> all) {
+  // Those that leave no more than the recording. The others are noted, not held: of long recordings each is large, and
+  // they are seldom asked for
+  std::vector<FittedStrips> within(std::vector<FittedStrips> all, std::size_t first) {
     double const most = recording().chosen().fit.energy();
     std::vector<FittedStrips> kept;
-    std::erase_if(all, [](FittedStrips const& one) { return !std::isfinite(one.chosen().fit.energy()); });
-    for (auto& one : all) (one.chosen().fit.energy() <= most ? kept : nearest_).push_back(std::move(one));
-    std::stable_sort(nearest_.begin(), nearest_.end(), [](FittedStrips const& a, FittedStrips const& b) {
-      return a.chosen().fit.energy() < b.chosen().fit.energy();
-    });
-    keep_first(nearest_, fewest);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      double const energy = all[i].chosen().fit.energy();
+      if (!std::isfinite(energy)) continue;
+      if (energy <= most) {
+        kept.push_back(std::move(all[i]));
+      } else {
+        beyond_.push_back({energy, first + i});
+      }
+    }
     return kept;
+  }
+
+  // of those that leave more than the recording, made again: the first leaves the least
+  std::vector<FittedStrips> nearest(std::size_t wanted) {
+    std::stable_sort(beyond_.begin(), beyond_.end(),
+                     [](Beyond const& a, Beyond const& b) { return a.energy < b.energy; });
+    if (beyond_.size() > wanted) beyond_.resize(wanted);
+    std::map<std::size_t, std::vector<std::size_t>> places;  // by the first replicate of a group
+    for (std::size_t i = 0; i < beyond_.size(); ++i)
+      places[beyond_[i].replicate / twin_lanes * twin_lanes].push_back(i);
+    std::vector<std::optional<FittedStrips>> made(beyond_.size());
+    for (auto const& [first, of_group] : places) {
+      std::vector<FittedStrips> group = drawn(first);
+      for (std::size_t const i : of_group) made[i] = std::move(group[beyond_[i].replicate - first]);
+    }
+    std::vector<FittedStrips> all;
+    for (auto& one : made) all.push_back(std::move(*one));
+    return all;
   }
 
   // some of them, until it is decided; whether it is
@@ -136,7 +157,7 @@ class Replicates {
     result_.delays.resize(before + fitted.size());
     parallel_for(fitted.size(), q_.threads, [&](std::size_t t, int) {
       Eigen::VectorXd const noise = noise_of(before + t);
-      FittedStrips at_allowed(*task_.model.model, {fitted[t].strips().begin(), fitted[t].strips().end()},
+      FittedStrips at_allowed(*task_.model.model, fitted[t].shared_strips(),
                               DelayChoice{DelaySearch::given, 0.0, allowed_delay(fitted[t])});
       at_allowed.add_noise(noise);
       fitted[t].add_noise(noise);
@@ -187,7 +208,7 @@ class Replicates {
   DecisionQuestion const& q_;
   ReplicateTask const& task_;
   std::vector<ReplicateMaker> makers_{};
-  std::vector<FittedStrips> nearest_{};  // of those that leave more than the recording
+  std::vector<Beyond> beyond_{};
   std::vector<OctavePowers> noise_{};
   std::optional<double> correction_{};  // D of smooth functions, of the recording; none: too small to matter
   ReplicateGains result_{};

@@ -81,13 +81,13 @@ TrackedJoint tracked(TwinJoint const& joint) {
           joint.lanes.gravity_cos};
 }
 
-// one of a group as if it had been recorded
-Recording recording_of(TwinGroup const& group, std::size_t lane, double rate_hz) {
+// one of a group as if it had been recorded; takes its samples, which are many, out of the group
+Recording taken_out(TwinGroup& group, std::size_t lane, double rate_hz) {
   Recording recording;
   recording.name = "a replicate";
   recording.rate_hz = rate_hz;
-  recording.position = group.position[lane];
-  recording.torque = group.torque[lane];
+  recording.position = std::exchange(group.position[lane], {});
+  recording.torque = std::exchange(group.torque[lane], {});
   Eigen::Index const samples = recording.torque.size();
   recording.time_s = Eigen::VectorXd::LinSpaced(samples, 0.0, static_cast<double>(samples - 1) / rate_hz);
   return recording;
@@ -148,12 +148,12 @@ std::vector<Strip> ReplicateMaker::simulated(std::size_t first, std::size_t coun
   });
   std::vector<Strip> all(count);
   parallel_for(count, setting_.threads, [&](std::size_t i, int) {
-    TwinGroup const& group = made[i / twin_lanes];
+    TwinGroup& group = made[i / twin_lanes];
     if (group.ran_away[i % twin_lanes]) {
       all[i] = on_measured_motion(first + i);
       return;
     }
-    Recording recording = recording_of(group, i % twin_lanes, recording_->rate_hz);
+    Recording recording = taken_out(group, i % twin_lanes, recording_->rate_hz);
     recording.rows.encoder_step = recording_->rows.encoder_step;
     if (given_.size() > 0) recording.torque += torque_to_hold(given_);
     all[i] = strip_of(recording, strip_->filters, strip_->resolution);

@@ -40,12 +40,12 @@ double noise_square(Eigen::VectorXd const& residual, Eigen::VectorXd const& of_r
   return sum / static_cast<double>(order.size());
 }
 
-void weigh(DecisionQuestion const& question, std::span<Recording const> recordings, FittedModel const& model,
-           std::vector<Strip>& strips) {
-  if (strips.empty()) return;
+std::vector<Strip> weighed(DecisionQuestion const& question, std::span<Recording const> recordings,
+                           FittedModel const& model, std::vector<Strip> strips) {
+  if (strips.empty()) return strips;
   strips = unweighed(std::move(strips));
   // fitted to these recordings, each row counting alike
-  FittedStrips const own(*model.model, strips, {DelaySearch::given, 0.0, model.fitted->chosen().late_s});
+  FittedStrips const own(*model.model, share(strips), {DelaySearch::given, 0.0, model.fitted->chosen().late_s});
   ReplicateSetting const setting{
       recordings,    question.filter, plausible_sticking(own.on(), own.chosen(), question.numbers.sticking_odds),
       question.seed, step_of_weights, question.threads};
@@ -57,13 +57,13 @@ void weigh(DecisionQuestion const& question, std::span<Recording const> recordin
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(own.on().rows());
   double count = 0.0;
   for (auto& replicate : drawn) {
-    FittedStrips const fitted(*model.model, std::move(replicate),
+    FittedStrips const fitted(*model.model, share(std::move(replicate)),
                               {DelaySearch::everywhere, question.numbers.longest_delay_s});
     if (!fitted.residual().allFinite()) continue;
     squares += fitted.residual().cwiseAbs2();
     count += 1.0;
   }
-  if (count == 0.0) return;
+  if (count == 0.0) return strips;
   squares /= count;
   Eigen::Index first = 0;
   for (auto& strip : strips) {
@@ -73,19 +73,20 @@ void weigh(DecisionQuestion const& question, std::span<Recording const> recordin
     if (noise > 0.0) strip.row_weight = (noise / (noise + left.array())).sqrt();
     first += rows;
   }
+  return strips;
 }
 
 }  // namespace
 
 JointStrips weighed_rows(DecisionQuestion const& question, JointStrips rows, FittedModel const& model) {
-  weigh(question, question.training, model, rows.training);
-  weigh(question, question.validation, model, rows.validation);
+  rows.training = share(weighed(question, question.training, model, *rows.training));
+  rows.validation = weighed(question, question.validation, model, std::move(rows.validation));
   count_torque(rows);
   return rows;
 }
 
 JointStrips unweighed_rows(JointStrips rows) {
-  rows.training = unweighed(std::move(rows.training));
+  rows.training = share(unweighed(*rows.training));
   rows.validation = unweighed(std::move(rows.validation));
   count_torque(rows);
   return rows;

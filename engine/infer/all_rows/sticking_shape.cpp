@@ -43,15 +43,11 @@ StickingSizes sticking_sizes(StickingBounds const& bounds) {
   return {sizes(bounds.least_creep, bounds.most_creep), sizes(bounds.least_length, bounds.most_length)};
 }
 
-Eigen::MatrixXd sticking_sides(Eigen::VectorXd const& q, Eigen::VectorXd const& dq, Eigen::VectorXd const& direction,
-                               StickingBounds const& bounds) {
-  std::vector<Eigen::VectorXd> sides;
+void each_sticking_side(Eigen::VectorXd const& q, Eigen::VectorXd const& dq, Eigen::VectorXd const& direction,
+                        StickingBounds const& bounds, std::function<void(Eigen::VectorXd const&)> const& take) {
   StickingSizes const sizes = sticking_sizes(bounds);
-  for (double const creep : sizes.creeps) sides.emplace_back((dq / creep).array().tanh());
-  for (double const length : sizes.lengths) sides.push_back(built_up(q, direction[0], length));
-  Eigen::MatrixXd all(q.size(), static_cast<Eigen::Index>(sides.size()));
-  for (std::size_t k = 0; k < sides.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = sides[k];
-  return all;
+  for (double const creep : sizes.creeps) take((dq / creep).array().tanh());
+  for (double const length : sizes.lengths) take(built_up(q, direction[0], length));
 }
 
 }  // namespace torquescope

@@ -206,11 +206,12 @@ Strip strip_of(Recording const& recording, std::shared_ptr<StripFilters const> c
   strip.motion.torque = strip.torque;
   strip.resolution = resolution > 0.0 ? resolution : position_resolution(recording);
   Eigen::VectorXd const direction = kept_direction(recording.position, reversal_steps * strip.resolution);
-  Eigen::MatrixXd const sides =
-      below_half_rate(sticking_sides(motion.q, motion.dq, direction, sticking_bounds(strip.resolution)), *filters);
   strip.direction = thinned(below_half_rate(direction, *filters).col(0), first, step);
-  strip.sides.resize(strip.direction.size(), sides.cols());
-  for (Eigen::Index k = 0; k < sides.cols(); ++k) strip.sides.col(k) = thinned(sides.col(k), first, step);
+  // one after the other: of all at the full rate there are many
+  each_sticking_side(motion.q, motion.dq, direction, sticking_bounds(strip.resolution), [&](auto const& side) {
+    strip.sides.conservativeResize(strip.direction.size(), strip.sides.cols() + 1);
+    strip.sides.rightCols(1) = thinned(below_half_rate(side, *filters).col(0), first, step);
+  });
   // of a position that is not filtered, the torque's
   double const band_hz = filters->options.cutoff_hz > 0.0 ? filters->options.cutoff_hz : filters->cutoff_hz;
   double const cutoff_hz = band_hz > 0.0 ? band_hz : below_half_of_rate * filters->rate_hz;

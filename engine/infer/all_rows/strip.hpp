@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/data/motion.hpp"
@@ -56,6 +57,12 @@ struct Strip {
   // samples that the filter couples, in rows
   Eigen::Index memory() const;
 };
+
+// of one joint: read by every model that is fitted to them, and many of samples
+using SharedStrips = std::shared_ptr<std::vector<Strip> const>;
+inline SharedStrips share(std::vector<Strip> strips) {
+  return std::make_shared<std::vector<Strip> const>(std::move(strips));
+}
 
 // resolution: known already; 0: of the recording
 Strip strip_of(Recording const& recording, std::shared_ptr<StripFilters const> const& filters, double resolution = 0.0);
