@@ -65,12 +65,12 @@ def main():
         text = (JOBS / f"{robot}.toml").read_text(encoding="utf-8")
         job = tomllib.loads(text)
         model, make = parts_of(job, wanted.folder)
-        train, unseen, _ = make(figaroh_columns)
+        train, validation, _ = make(figaroh_columns)
         chosen, found = least_squares(model, job, train)
         mine = ours(wanted.program, text, job, wanted.folder)
         print(f"{robot}: {len(chosen)} base parameters with frictions")
         for name, values in found.items():
-            theirs = [errors([(phi[:, chosen], tau) for phi, tau in rows], values) for rows in (train, unseen)]
+            theirs = [errors([(phi[:, chosen], tau) for phi, tau in rows], values) for rows in (train, validation)]
             for who, results in (("ours", mine[name][1:]), ("FIGAROH", theirs)):
                 for rows, percent in zip(("train", "unseen"), results):
                     numbers = " | ".join(f"{100 * value:.3g}" for value in percent)

@@ -150,18 +150,18 @@ def parts_of(job, folder):
         found["validate"] = [cut(part, end, None) for part, end in zip(found["train"], ends)]
         found["train"] = [cut(part, 0, end) for part, end in zip(found["train"], ends)]
     def make(columns_of):
-        train, unseen = (joined([rows_of(part, model, offset, job, columns_of) for part in found[key]])
+        train, validation = (joined([rows_of(part, model, offset, job, columns_of) for part in found[key]])
                          for key in ("train", "validate"))
-        return moving_of(train), moving_of(unseen), all_of(unseen)
+        return moving_of(train), moving_of(validation), all_of(validation)
 
     return model, make
 
 
 def peer(job, folder):
     _, make = parts_of(job, folder)
-    train, unseen, everywhere = make(pinocchio_columns)
-    count = [sum(len(torque) for _, torque in rows) for rows in (unseen, everywhere)]
-    return {name: (count, errors(train, x), errors(unseen, x), errors(everywhere, x))
+    train, validation, everywhere = make(pinocchio_columns)
+    count = [sum(len(torque) for _, torque in rows) for rows in (validation, everywhere)]
+    return {name: (count, errors(train, x), errors(validation, x), errors(everywhere, x))
             for name, x in (("ols", solve(train, np.ones(len(train)))), ("wls", weighted(train)))}
 
 

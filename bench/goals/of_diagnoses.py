@@ -48,10 +48,10 @@ COLUMNS = '{time = "t_s", reference = "q_ref_rad", position = "q_rad", torque = 
 
 
 def job(context, effects, duration_s):
-    train, unseen = (recording(context, effects, duration_s, seed) for seed in (11, 12))
+    train, validation = (recording(context, effects, duration_s, seed) for seed in (11, 12))
     return "\n".join([
         simulated_job.section("[experiment]", {"name": "diagnosis", "seed": 11}),
-        simulated_job.section("[recording]", {"train": train, "validate": unseen}) + f"columns = {COLUMNS}\n",
+        simulated_job.section("[recording]", {"train": train, "validate": validation}) + f"columns = {COLUMNS}\n",
         simulated_job.section("[filter]", {"cutoff_hz": 30, "parallel_cutoff_hz": 15, "decimate_to_hz": 50}),
         simulated_job.section("[model]", {"joint": "revolute", "terms": ["inertia", "viscous", "coulomb", "offset"]}),
         simulated_job.section("[diagnose]", {"effects": "all", "twins": 200})])

@@ -23,15 +23,15 @@ def timed(work):
     def spent():
         return time.process_time() + sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
     start = spent()
-    unseen = work()
-    return {"unseen": 100 * unseen, "cpu_s": spent() - start}
+    validation = work()
+    return {"unseen": 100 * validation, "cpu_s": spent() - start}
 
 
 def by_figaroh(job, folder):
     model, make = identify_peer.parts_of(job, folder)
-    train, unseen, _ = make(figaroh_peer.figaroh_columns)
+    train, validation, _ = make(figaroh_peer.figaroh_columns)
     chosen, found = figaroh_peer.least_squares(model, job, train)
-    return identify_peer.errors([(phi[:, chosen], tau) for phi, tau in unseen], found["wls"])[-1]
+    return identify_peer.errors([(phi[:, chosen], tau) for phi, tau in validation], found["wls"])[-1]
 
 
 def main(program, folder, robot):

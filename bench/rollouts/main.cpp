@@ -38,7 +38,7 @@ RolloutTrial trial(double weight, double kd) {
 }
 
 std::vector<RolloutTrial> trials(RolloutTrial const& first) {
-  std::vector<RolloutTrial> all(twin_lanes, first);
+  std::vector<RolloutTrial> all(replicate_lanes, first);
   for (std::size_t i = 0; i < all.size(); ++i) all[i].joint.inertia *= 1.0 + 0.01 * static_cast<double>(i);
   return all;
 }
@@ -60,7 +60,7 @@ void measure(char const* name, RolloutTrial const& first, std::vector<Effect con
   }
   double const steps = std::ceil(tracks.front().tick_s() / structure.step_s * (1.0 - 1e-9));
   std::printf("{\"case\": \"%s\", \"steps_per_second\": %.4g, \"checksum\": %.17g}\n", name,
-              static_cast<double>(samples) * static_cast<double>(twin_lanes) * steps / fastest_s, sum);
+              static_cast<double>(samples) * static_cast<double>(replicate_lanes) * steps / fastest_s, sum);
 }
 
 RolloutTrial with_effect(std::vector<double> parameters) {

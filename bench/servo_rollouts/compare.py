@@ -45,14 +45,14 @@ def mrad(rad):
     return "" if rad is None else f"{1000 * rad:.2f}"
 
 
-def searched(wanted, training, unseen):
+def searched(wanted, training, validation):
     """A finished search of each model, with its errors."""
     found = []
     for model in wanted.models:
         search = cma_search.search(model, training, wanted.seconds, wanted.members, wanted.seed, found)
         search.train, search.rms = (value[0] for value in servo_simulation.errors(model, search.unit[None], training))
         search.crowd_rate = cma_search.crowd_rate(search, training)
-        search.unseen = servo_simulation.errors(model, search.unit[None], unseen)[0][0] if unseen else None
+        search.validation = servo_simulation.errors(model, search.unit[None], validation)[0][0] if validation else None
         say(f"{model}: {search.fits} fits, {mrad(search.train)} mrad; "
             + ", ".join(f"{name} {value:.4g}" for name, value in search.numbers().items()))
         found.append(search)
@@ -61,7 +61,7 @@ def searched(wanted, training, unseen):
 
 def error_rows(searches, diagnosed, seconds):
     rows = [[f"{search.model}, numpy and CMA-ES", len(search.unit), search.fits, f"{search.seconds:.0f}",
-             mrad(search.train), mrad(search.unseen), "; ".join(search.ends)] for search in searches]
+             mrad(search.train), mrad(search.validation), "; ".join(search.ends)] for search in searches]
     if diagnosed:
         laws = ", ".join(one["name"] for one in diagnosed["kept"]) or "no law"
         for who, key, when, cpu_s, end in (("torquescope, the job's model", "parameters_before", "before", "", ""),
@@ -101,11 +101,11 @@ def main():
         print(f"left out: {wanted.records} holds no records of a servo (a manifest.csv, or train/ and unseen_load/)")
         return
     step_s, load = wanted.step_ms / 1000, os.getloadavg()[0]
-    training, unseen = [servo_records.Ticks(group, step_s) if group else None for group in groups]
+    training, validation = [servo_records.Ticks(group, step_s) if group else None for group in groups]
     missing, searches, lanes, seconds, diagnosed = [], [], {}, None, None
     program = wanted.build if wanted.build.is_file() else wanted.build / "bin/torquescope"
     try:
-        searches = searched(wanted, training, unseen)
+        searches = searched(wanted, training, validation)
     except ImportError as absent:
         missing.append(f"CMA-ES: {absent}; pip install cma gets it")
     with tempfile.TemporaryDirectory() as folder:

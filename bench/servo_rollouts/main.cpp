@@ -74,7 +74,7 @@ Case read_case(std::istream& in) {
 
 // lanes differ a little, as those of a search do
 std::vector<RolloutTrial> lanes_of(RolloutTrial const& first) {
-  std::vector<RolloutTrial> all(twin_lanes, first);
+  std::vector<RolloutTrial> all(replicate_lanes, first);
   for (std::size_t i = 1; i < all.size(); ++i) all[i].joint.inertia *= 1.0 + 0.002 * static_cast<double>(i);
   return all;
 }
@@ -98,7 +98,7 @@ void measure(Case const& one, std::vector<RolloutTrack> const& tracks, double se
     fastest_s = std::min(fastest_s, std::chrono::duration<double>(Clock::now() - start).count());
   } while (Clock::now() < end);
   std::printf("{\"case\": \"%s\", \"fits_per_second\": %.4g, \"rms_rad\": %.6g}\n", one.name.c_str(),
-              static_cast<double>(twin_lanes) / fastest_s, std::sqrt(squares / samples));
+              static_cast<double>(replicate_lanes) / fastest_s, std::sqrt(squares / samples));
 }
 
 }  // namespace

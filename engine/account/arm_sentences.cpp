@@ -91,11 +91,11 @@ std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& f
   std::string text = fmt::format("{}{} ({}): on held-out rows the error over all joints falls from {} to {}", when,
                                  name_list(alike, "or"), fmt::join(values, ", "), percent_text(facts.before),
                                  percent_text(facts.after));
-  if (facts.unseen_before > 0.0)
-    text +=
-        fmt::format(", validation from {} to {}", percent_text(facts.unseen_before), percent_text(facts.unseen_after));
+  if (facts.validation_before > 0.0)
+    text += fmt::format(", validation from {} to {}", percent_text(facts.validation_before),
+                        percent_text(facts.validation_after));
   std::vector<std::string> there;
-  for (auto const& one : facts.unseen) {
+  for (auto const& one : facts.validation) {
     std::string const own = when_text(one.recording, one.from_s, one.until_s);
     there.push_back(own.empty() ? "in all of " + one.recording : own);
   }

@@ -18,15 +18,15 @@ std::string arm_reason_sentence(Diagnosis const& diagnosis);
 // on rows left out relerr over all joints falls from 12 % to 1.3 %."; recording: "" where it acts everywhere
 struct WholeArmFacts {
   std::string recording{};
-  double from_s = 0.0, until_s = 0.0;              // until: infinite where it acts to the end
-  double before = 0.0, after = 0.0;                // relerr on rows left out
-  double unseen_before = 0.0, unseen_after = 0.0;  // 0: it acts in no validation recording
+  double from_s = 0.0, until_s = 0.0;                      // until: infinite where it acts to the end
+  double before = 0.0, after = 0.0;                        // relerr on rows left out
+  double validation_before = 0.0, validation_after = 0.0;  // 0: it acts in no validation recording
   // of an event: where it acts in validation recordings
   struct There {
     std::string recording{};
     double from_s = 0.0, until_s = 0.0;
   };
-  std::vector<There> unseen{};
+  std::vector<There> validation{};
 };
 std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& facts);
 

@@ -11,11 +11,11 @@
 namespace torquescope {
 namespace {
 
-// of an error in training and unseen, by the same model
-bool is_other_kind(double unseen, double train, double floor) {
+// of an error in training and validation, by the same model
+bool is_other_kind(double validation, double train, double floor) {
   constexpr double times = 3.0, points = 0.03;
   double const expected = std::isfinite(floor) ? std::max(train, floor) : train;
-  return unseen > times * expected && unseen > expected + points;
+  return validation > times * expected && validation > expected + points;
 }
 
 // of the energy that a prediction at the floor would take away, where that is a quarter of it or more; the same as of
@@ -35,7 +35,7 @@ bool comes_early(NamedEffect const& effect) {
 constexpr double usual_p = 0.05;
 
 std::string omnibus_text(JointDiagnosis const& joint) {
-  return p_text(joint.omnibus_p, false, 1.0 / static_cast<double>(joint.twins + 1));
+  return p_text(joint.omnibus_p, false, 1.0 / static_cast<double>(joint.replicates + 1));
 }
 
 // of those without a name the candidate that is least by chance; null where all have one
@@ -70,34 +70,34 @@ std::string left_out_clause(LeftOut const& left_out) {
 }
 
 std::string gain_sentence(JointDiagnosis const& joint) {
-  bool const unseen = std::isfinite(joint.validation_relerr) && std::isfinite(joint.augmented_validation_relerr);
-  double const before = unseen ? joint.validation_relerr : joint.cv_relerr;
-  double const after = unseen ? joint.augmented_validation_relerr : joint.augmented_cv_relerr;
+  bool const validation = std::isfinite(joint.validation_relerr) && std::isfinite(joint.augmented_validation_relerr);
+  double const before = validation ? joint.validation_relerr : joint.cv_relerr;
+  double const after = validation ? joint.augmented_validation_relerr : joint.augmented_cv_relerr;
   if (!std::isfinite(before) || !std::isfinite(after)) return "";
-  std::string const text = fmt::format("{} error {} to {}", unseen ? "Validation" : "Cross-validated",
+  std::string const text = fmt::format("{} error {} to {}", validation ? "Validation" : "Cross-validated",
                                        percent_text(before), percent_text(after));
-  std::string left_out = left_out_clause(unseen ? joint.validation_left_out : joint.train_left_out);
-  if (!left_out.empty() && !unseen) left_out += " in training";
+  std::string left_out = left_out_clause(validation ? joint.validation_left_out : joint.train_left_out);
+  if (!left_out.empty() && !validation) left_out += " in training";
   return text + floor_words(after, joint.floor_relerr) + (left_out.empty() ? "" : "; " + left_out) + "." +
-         (unseen && keeps_little(before, after, joint.floor_relerr)
+         (validation && keeps_little(before, after, joint.floor_relerr)
               ? " That is less than a quarter of what replicates with these names promise: something else is missing "
                 "there."
               : "");
 }
 
-std::string unseen_is_other_sentence(JointDiagnosis const& joint) {
+std::string validation_is_other_sentence(JointDiagnosis const& joint) {
   double const floor = joint.floor_relerr;
   if (!std::isfinite(joint.validation_relerr) || !is_other_kind(joint.validation_relerr, joint.train_relerr, floor))
     return "";
-  double unseen = joint.validation_relerr, train = joint.train_relerr;
+  double validation = joint.validation_relerr, train = joint.train_relerr;
   if (std::isfinite(joint.augmented_validation_relerr)) {
-    unseen = joint.augmented_validation_relerr;
+    validation = joint.augmented_validation_relerr;
     train = joint.augmented_train_relerr;
-    if (!is_other_kind(unseen, train, floor)) return "";
+    if (!is_other_kind(validation, train, floor)) return "";
   }
   return fmt::format(
       "The validation recording holds something that the training recording does not show: error {} there, {} here.",
-      percent_text(unseen), percent_text(train));
+      percent_text(validation), percent_text(train));
 }
 
 std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete) {
@@ -105,18 +105,18 @@ std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete) {
                                ? "correct the channel, or record the torque that the drive gives instead of its command"
                                : "correct the channel, or record again";
   if (!is_complete) return mend + "; what else is missing shows then";
-  return unseen_is_other_sentence(joint).empty() ? mend + "; the model itself needs nothing more" : mend;
+  return validation_is_other_sentence(joint).empty() ? mend + "; the model itself needs nothing more" : mend;
 }
 
 std::string likeness_sentence(JointDiagnosis const& joint) {
-  if (joint.twins == 0) return fmt::format("Nothing is missing in the model of {}.", which_joint(joint));
+  if (joint.replicates == 0) return fmt::format("Nothing is missing in the model of {}.", which_joint(joint));
   std::string const p = omnibus_text(joint);
   if (!(joint.omnibus_p < usual_p))
     return fmt::format("The residual of {} looks like that of {} simulated replicates ({}).", which_joint(joint),
-                       joint.twins, p);
+                       joint.replicates, p);
   return fmt::format(
       "The residual of {} differs from that of {} simulated replicates ({}), but by too little for a name.",
-      which_joint(joint), joint.twins, p);
+      which_joint(joint), joint.replicates, p);
 }
 
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits) {

@@ -24,12 +24,12 @@ std::string left_out_clause(LeftOut const& left_out);
 // validation error stays far above its floor whatever was named, that is said
 std::string gain_sentence(JointDiagnosis const& joint);
 
-// A validation error beyond three times and three points above both the error in training and the floor of the unseen
-// recording, before and after: "The unseen recording holds something that the training recording does not show:
-// relerr 18.4 % there, 0.82 % here."; "" otherwise
-std::string unseen_is_other_sentence(JointDiagnosis const& joint);
+// A validation error beyond three times and three points above both the error in training and the floor of the
+// validation recording, before and after: "The validation recording holds something that the training recording does
+// not show: relerr 18.4 % there, 0.82 % here."; "" otherwise
+std::string validation_is_other_sentence(JointDiagnosis const& joint);
 
-// where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen
+// where nothing is named but a fault of the recording: a clause. The model is called complete only where the validation
 // recording agrees, and where nothing else is left (is_complete)
 std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete);
 

@@ -144,7 +144,7 @@ std::string finding_clause(JointDiagnosis const& joint, NamedEffect const& effec
 
 // "Stribeck friction (p < 0.005; presliding cannot be excluded)"
 std::string name_clause(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {
-  std::string const p = p_text(effect.p, effect.p_is_bound, least_p(joint.twins));
+  std::string const p = p_text(effect.p, effect.p_is_bound, least_p(joint.replicates));
   if (one_of_class && !effect.equivalent.empty()) {
     std::vector<std::string> names{effect.name};
     names.insert(names.end(), effect.equivalent.begin(), effect.equivalent.end());
@@ -270,7 +270,7 @@ std::string recording_reason(Diagnosis const& diagnosis) {
   }
   for (auto const& joint : diagnosis.joints) {
     append(text, joint.timing_sentence);
-    append(text, unseen_is_other_sentence(joint));
+    append(text, validation_is_other_sentence(joint));
   }
   append(text, sentence(diagnosis.way_out));
   return text;
@@ -308,7 +308,7 @@ std::string reason_sentence(Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
     append(text, joint_reason(diagnosis.verdict, joint));
     append(text, joint.timing_sentence);
-    append(text, unseen_is_other_sentence(joint));
+    append(text, validation_is_other_sentence(joint));
   }
   return text;
 }

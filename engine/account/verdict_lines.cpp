@@ -80,7 +80,7 @@ std::string named_text(JointDiagnosis const& joint, std::size_t most_numbers) {
   std::size_t const shown = std::min(three, effects.size());
   std::string text;
   for (std::size_t k = 0; k < shown; ++k) {
-    auto const p_of = [&](NamedEffect const& one) { return p_text(one.p, one.p_is_bound, least_p(joint.twins)); };
+    auto const p_of = [&](NamedEffect const& one) { return p_text(one.p, one.p_is_bound, least_p(joint.replicates)); };
     bool const is_last = k + 1 == shown;
     text += (text.empty() ? "" : "; ") + class_of(effects[k], most_numbers);
     if (is_last || p_of(effects[k]) != p_of(effects[k + 1])) text += ", " + p_of(effects[k]);
@@ -95,9 +95,10 @@ std::string without_full_stop(std::string text) {
 }
 
 std::string none_text(JointDiagnosis const& joint) {
-  std::string text = joint.twins > 0 ? fmt::format("the residual is like that of {} simulated replicates ({})",
-                                                   joint.twins, p_text(joint.omnibus_p, false, least_p(joint.twins)))
-                                     : std::string("the model explains the recording");
+  std::string text = joint.replicates > 0
+                         ? fmt::format("the residual is like that of {} simulated replicates ({})", joint.replicates,
+                                       p_text(joint.omnibus_p, false, least_p(joint.replicates)))
+                         : std::string("the model explains the recording");
   if (!joint.power_sentence.empty()) text += ". " + without_full_stop(joint.power_sentence);
   return text;
 }
@@ -207,7 +208,7 @@ VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joi
   if (!is_of_arm && !diagnosis.way_out.empty()) lines.remarks.push_back(diagnosis.way_out);
   std::string const of_validation =
       joint.nuisances.empty() ? "" : fmt::format("in validation: {}", fmt::join(joint.nuisances, "; "));
-  for (auto const& sentence : {of_validation, joint.timing_sentence, unseen_is_other_sentence(joint)})
+  for (auto const& sentence : {of_validation, joint.timing_sentence, validation_is_other_sentence(joint)})
     if (!sentence.empty()) lines.remarks.push_back(sentence);
   return lines;
 }

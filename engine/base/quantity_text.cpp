@@ -90,8 +90,8 @@ std::string share_text(double share, double low, double high) {
 
 std::string p_cell(double p, bool is_bound, double least) {
   if (!std::isfinite(p)) return "?";
-  bool const below_twins = p < least * (1.0 + 1e-9);
-  if (is_bound || below_twins || !(p > 0.0)) {
+  bool const below_replicates = p < least * (1.0 + 1e-9);
+  if (is_bound || below_replicates || !(p > 0.0)) {
     double const bound = std::max({p, least, 1e-6});
     return "<" + rounded_up(bound);
   }

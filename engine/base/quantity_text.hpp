@@ -24,8 +24,8 @@ std::string percent_text(double share);
 // "71 % (60 to 79 %)": a share with its interval, two digits each; "71 %" without an interval, "" without a share
 std::string share_text(double share, double low, double high);
 
-// "p < 0.005" where the p-value is only known to lie below (is_bound, or below `least`, what so many twins can show);
-// "p = 0.41" otherwise. Never zero: a bound is rounded up to one digit
+// "p < 0.005" where the p-value is only known to lie below (is_bound, or below `least`, what so many replicates can
+// show); "p = 0.41" otherwise. Never zero: a bound is rounded up to one digit
 std::string p_text(double p, bool is_bound, double least);
 // the same for a table: "<0.005", "0.41"
 std::string p_cell(double p, bool is_bound, double least);

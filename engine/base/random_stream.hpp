@@ -21,7 +21,7 @@ using PhiloxBlock = std::array<std::uint32_t, 4>;
 PhiloxBlock philox4x32(PhiloxBlock counter, std::array<std::uint32_t, 2> key);
 
 // keeps streams of different purposes apart under the same seed
-enum class RandomDomain : std::uint32_t { optimiser = 0, simulation = 1, resampling = 2, test = 3, twin = 4 };
+enum class RandomDomain : std::uint32_t { optimiser = 0, simulation = 1, resampling = 2, test = 3, replicate = 4 };
 
 struct RandomKey {
   std::uint64_t seed = 0;

@@ -93,7 +93,7 @@ inline constexpr std::size_t shortest_hold = 2;
 inline constexpr double way_after_hold = static_cast<double>(shortest_hold + 1);
 // convention: rows around a hold that say how fast the joint goes, and how much faster it may have gone unseen
 inline constexpr std::size_t rows_around_hold = 50;
-inline constexpr double faster_unseen = 1.5;
+inline constexpr double faster_unnoticed = 1.5;
 // convention: repeated rows are worth saying from three of them, and one in a thousand
 inline constexpr double repeats_worth_saying = 3.0, share_of_repeats_worth_saying = 1e-3;
 

@@ -45,14 +45,14 @@ class ArmWork {
         joints_(input.model.joints()),
         decided_(joints_),
         outcomes_(joints_) {
-    std::vector<RecordedArm> train = input.train, unseen = input.validate;
+    std::vector<RecordedArm> train = input.train, validation = input.validate;
     if (has_simulator(input.train)) {
       ArmWithoutSimulator apart = without_simulator(input.model, input.train, input.validate, filter_);
       train = std::move(apart.train);
-      unseen = std::move(apart.validate);
+      validation = std::move(apart.validate);
       parameter_share_ = std::move(apart.parameter_share);
     }
-    train.insert(train.end(), std::make_move_iterator(unseen.begin()), std::make_move_iterator(unseen.end()));
+    train.insert(train.end(), std::make_move_iterator(validation.begin()), std::make_move_iterator(validation.end()));
     arm_ = learnt_arm(input, std::move(train), filter_);
   }
 

@@ -32,24 +32,24 @@ EffectCurve curve_on(SignatureAxis axis, MismatchRows const& rows, Eigen::Vector
   std::vector<int> const cells = cells_of(values, edges);
   Eigen::VectorXd const sign = reading_sign(axis, rows);
   std::size_t const n = edges.size() - 1;
-  Eigen::MatrixXd const apart = rows.twins.colwise() - rows.twin_mean;
+  Eigen::MatrixXd const apart = rows.replicates.colwise() - rows.replicate_mean;
   curve.axis = {word(axis), edges.front(), edges.back(), axis_unit(axis, joint)};
   for (std::size_t cell = 0; cell < n; ++cell) {
     double count = 0.0, modelled = 0.0, partial = 0.0;
-    Eigen::RowVectorXd twins = Eigen::RowVectorXd::Zero(apart.cols());
+    Eigen::RowVectorXd replicates = Eigen::RowVectorXd::Zero(apart.cols());
     for (std::size_t k = 0; k < cells.size(); ++k) {
       if (cells[k] != static_cast<int>(cell)) continue;
       auto const row = static_cast<Eigen::Index>(k);
       count += 1.0;
       modelled += sign[row] * torque[row];
       partial += sign[row] * (torque[row] + left[row]);
-      twins += sign[row] * apart.row(row);
+      replicates += sign[row] * apart.row(row);
     }
     if (count == 0.0) continue;
     curve.at.push_back(0.5 * (edges[cell] + edges[cell + 1]));
     curve.modelled.push_back(modelled / count);
     curve.partial.push_back(partial / count);
-    curve.spread.push_back(twins.norm() / count / std::sqrt(static_cast<double>(apart.cols() - 1)));
+    curve.spread.push_back(replicates.norm() / count / std::sqrt(static_cast<double>(apart.cols() - 1)));
   }
   return curve;
 }
@@ -116,7 +116,7 @@ EffectAccount account_of(EffectOnRecording const& on) {
     account.peak = peak_in(account.places, values_on(axis, on.rows), on.beside);
   }
   SignatureAxis const drawn = is_spectrum(axis) ? SignatureAxis::position : axis;
-  account.curve = curve_on(drawn, on.rows, on.whole, on.rows.residual - on.rows.twin_mean, joint);
+  account.curve = curve_on(drawn, on.rows, on.whole, on.rows.residual - on.rows.replicate_mean, joint);
   return account;
 }
 

@@ -161,7 +161,7 @@ class JointWork {
     joint_.train_relerr = facts.baseline.train;
     joint_.cv_relerr = facts.baseline.held_out;
     joint_.validation_relerr = facts.baseline.validation;
-    joint_.twins = facts.steps.empty() ? 0 : facts.steps.front().replicates;
+    joint_.replicates = facts.steps.empty() ? 0 : facts.steps.front().replicates;
     tell_parameters(joint_.baseline, decision.baseline, facts.baseline_parameters);
     tell_candidates(facts);
     DecisionOutcome of;
@@ -282,7 +282,7 @@ class JointWork {
       double const chance = replicates.colwise().squaredNorm().mean();
       return std::sqrt(std::max(0.0, energy - chance) / static_cast<double>(replicates.rows()));
     };
-    joint_.twin_energy = energies_of(decision.baseline, decision.baseline_replicates);
+    joint_.replicate_energy = energies_of(decision.baseline, decision.baseline_replicates);
     joint_.omnibus_p = steps.front().correction.p;
     joint_.mismatch_rms = beyond(decision.baseline, decision.baseline_replicates);
     joint_.left_rms = beyond(decision.final, decision.final_replicates);
@@ -356,7 +356,7 @@ class JointWork {
                                      [](Effect const* one) { return one->is_torque_timing(); });
     if (timing == effect_choices().end()) return;
     NamedEffect named = named_after(**timing);
-    named.p = named.q = least_p(joint_.twins);
+    named.p = named.q = least_p(joint_.replicates);
     named.z = std::sqrt(delay.gain);
     named.rms = delay.size * torque_rms_;
     named.parameters.push_back(estimate(named.name, "s", {delay.late_s, delay.deviation_s}));

@@ -98,8 +98,8 @@ MismatchRows mismatch_rows(FittedModel const& by, Eigen::MatrixXd const& replica
   for (Eigen::Index const row : strip.rows) rows.kept_rows.push_back(row / strip.rows_apart);
   rows.torque = on_rows(strip, strip.torque).col(0);
   rows.residual = by.fitted->residual().head(static_cast<Eigen::Index>(strip.rows.size()));
-  rows.twins = replicates;
-  rows.twin_mean = replicates.rowwise().mean();
+  rows.replicates = replicates;
+  rows.replicate_mean = replicates.rowwise().mean();
   return rows;
 }
 

@@ -45,13 +45,14 @@ NamedEffect named(FoundWholeArmLaw const& found, WholeArmRecordings const& recor
   made.z = found.z;
   made.gain.cv = found.explained;
   made.parameters = parameters_of(found);
-  WholeArmFacts facts{"", -infinite, infinite, found.before, found.after, found.unseen_before, found.unseen_after, {}};
+  WholeArmFacts facts{
+      "", -infinite, infinite, found.before, found.after, found.validation_before, found.validation_after, {}};
   if (found.time) {
     facts.recording = recordings.train[found.time->recording];
     facts.from_s = found.time->from_s;
     facts.until_s = found.time->until_s;
-    for (auto const& there : found.unseen_times)
-      if (there) facts.unseen.push_back({recordings.unseen[there->recording], there->from_s, there->until_s});
+    for (auto const& there : found.validation_times)
+      if (there) facts.validation.push_back({recordings.validation[there->recording], there->from_s, there->until_s});
     made.region = {word(SignatureAxis::time), facts.from_s, facts.until_s, "s"};
   }
   made.sentence = whole_arm_sentence(made, facts);
@@ -72,7 +73,7 @@ char const* clause_of(WholeArmReason reason) {
       return "lowers the error on rows left out by too little";
     case WholeArmReason::most_is_left:
       return "explains less than half of the mismatch of all joints";
-    case WholeArmReason::unseen:
+    case WholeArmReason::validation:
       return "makes the error on validation recordings larger";
   }
   return "";

@@ -13,7 +13,7 @@ namespace torquescope {
 
 // names, in the order of the question
 struct WholeArmRecordings {
-  std::vector<std::string> train{}, unseen{};
+  std::vector<std::string> train{}, validation{};
 };
 
 // answers: of one search after the other, each beside what those before had found

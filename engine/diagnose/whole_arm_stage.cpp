@@ -50,17 +50,17 @@ JointsOfArm joints_of(ArmFiles const& files, ArmModel const& model, ArmFilter co
 WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, RowsOfArm const& of) {
   if (of.laws.empty()) return {};
   std::vector<RowsOfJoint const*> training;
-  std::vector<std::vector<RowsOfJoint const*>> unseen(input.validate.size());
+  std::vector<std::vector<RowsOfJoint const*>> validation(input.validate.size());
   std::vector<Eigen::Index> own_columns;
   for (auto const& joint : of.rows) {
     if (!joint || joint->training.rows.empty()) continue;
     training.push_back(&joint->training);
     own_columns.push_back(joint->training.model.own.cols());
-    for (std::size_t k = 0; k < unseen.size(); ++k) unseen[k].push_back(&joint->validation[k]);
+    for (std::size_t k = 0; k < validation.size(); ++k) validation[k].push_back(&joint->validation[k]);
   }
   WholeArmRows const trained = whole_arm_rows(training, own_columns, of.noise, of.laws);
   std::vector<WholeArmRows> others;
-  for (auto const& joints : unseen) others.push_back(whole_arm_rows(joints, own_columns, of.noise, of.laws));
+  for (auto const& joints : validation) others.push_back(whole_arm_rows(joints, own_columns, of.noise, of.laws));
   DecisionNumbers numbers = input.numbers;
   numbers.alpha = numbers.alpha_of_whole_arm();
   return search_whole_arm({trained, others, of.noise, numbers, input.seed, input.threads});
@@ -70,10 +70,11 @@ std::vector<RecordedArm> without_laws(ArmDiagnosisInput const& input, ArmFiles c
                                       std::vector<FoundWholeArmLaw> const& accepted) {
   std::vector<RecordedArm> arms = files.arms;
   for (std::size_t k = 0; k < arms.size(); ++k) {
-    bool const is_unseen = k >= files.training;
+    bool const is_validation = k >= files.training;
     auto const laws =
         whole_arm_laws(input.model, files.parameters, motion_of(files.arms[k], filter), files.wanted, input.threads);
-    OneRecording const of{laws, files.arms[k].joints.front().time_s, is_unseen ? k - files.training : k, is_unseen};
+    OneRecording const of{laws, files.arms[k].joints.front().time_s, is_validation ? k - files.training : k,
+                          is_validation};
     auto const torques = whole_arm_torques(accepted, of);
     for (std::size_t j = 0; j < torques.size(); ++j) {
       Recording& joint = arms[k].joints[j];

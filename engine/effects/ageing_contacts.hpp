@@ -2,8 +2,8 @@
 // Contacts that age while they stand and are renewed as they slide, side by side in vector registers: of one shape for
 // replicates, of one shape each for columns. effects/breakaway_dwell.cpp has the equation.
 //
-// Why        a twin takes 50 000 steps per second, and each needs two exponentials and a logarithm: of one number after
-//            the other by the system's library they were half of a diagnosis that names this effect
+// Why        a replicate takes 50 000 steps per second, and each needs two exponentials and a logarithm: of one number
+//            after the other by the system's library they were half of a diagnosis that names this effect
 // Bits       those of one contact alone on every instruction set and machine (kernels/elementary.hpp)
 // Threads    the memory is used by one thread
 

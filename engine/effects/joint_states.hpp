@@ -2,7 +2,8 @@
 // One instant of a joint, instants side by side, one array per quantity, and the functions that laws of effects are
 // written with.
 //
-// Shapes     n instants, n <= states_at_once: a block of a recording, the lanes of a group of twins, or one instant
+// Shapes     n instants, n <= states_at_once: a block of a recording, the lanes of a group of replicates, or one
+//            instant
 // Bits       of an effect over them: the same for any n and any place (kernels/elementary.hpp), so that simulation and
 //            columns agree to the last digit
 // Threads    views and free functions; do not allocate

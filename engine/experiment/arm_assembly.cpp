@@ -100,22 +100,22 @@ void take_motor_torques(Joints& joints, SerialChain const& chain, RecordingOptio
   }
 }
 
-void split_files(Files& train, Files& unseen, double share) {
+void split_files(Files& train, Files& validation, double share) {
   if (share >= 1.0) return;
   for (auto& file : train) {
     RecordedArm tail{{}, file.payload};
-    split_off_unseen(file.joints, tail.joints, share);
-    split_off_unseen(file.wrench, tail.wrench, share);
-    unseen.push_back(std::move(tail));
+    split_off_validation(file.joints, tail.joints, share);
+    split_off_validation(file.wrench, tail.wrench, share);
+    validation.push_back(std::move(tail));
   }
 }
 
-void bring_files_to_one_rate(Files& train, Files& unseen) {
-  Joints first_of_train, first_of_unseen;
+void bring_files_to_one_rate(Files& train, Files& validation) {
+  Joints first_of_train, first_of_validation;
   for (auto const& file : train) first_of_train.push_back(file.joints.front());
-  for (auto const& file : unseen) first_of_unseen.push_back(file.joints.front());
-  double const rate_hz = rate_of_job(first_of_train, first_of_unseen);
-  for (auto* files : {&train, &unseen})
+  for (auto const& file : validation) first_of_validation.push_back(file.joints.front());
+  double const rate_hz = rate_of_job(first_of_train, first_of_validation);
+  for (auto* files : {&train, &validation})
     for (auto& file : *files) {
       bring_joints_to_rate(file.joints, rate_hz);
       bring_to_rate(file.wrench, rate_hz);
@@ -135,9 +135,9 @@ void grade_standstill(Joints& joints) {
 }
 
 // Of the joints of a kind together; of slides and revolute joints the faster ones: what they keep, all keep
-FilterSuggestion suggest_filter_of(SerialChain const& chain, Files const& train, Files const& unseen) {
+FilterSuggestion suggest_filter_of(SerialChain const& chain, Files const& train, Files const& validation) {
   double shortest_s = std::numeric_limits<double>::infinity();
-  for (auto const* files : {&train, &unseen})
+  for (auto const* files : {&train, &validation})
     for (auto const& file : *files)
       shortest_s =
           std::min(shortest_s, static_cast<double>(file.joints.front().position.size()) / file.joints.front().rate_hz);
@@ -153,8 +153,8 @@ FilterSuggestion suggest_filter_of(SerialChain const& chain, Files const& train,
   return best;
 }
 
-void choose_filter(Experiment::Parts& parts, Files const& train, Files const& unseen) {
-  FilterSuggestion const suggestion = suggest_filter_of(parts.arm->model.chain(), train, unseen);
+void choose_filter(Experiment::Parts& parts, Files const& train, Files const& validation) {
+  FilterSuggestion const suggestion = suggest_filter_of(parts.arm->model.chain(), train, validation);
   if (parts.job.find("filter") == nullptr) {
     parts.filter = suggestion.options;
     parts.filter_is_chosen = true;
@@ -256,7 +256,7 @@ void stack(std::vector<RecordedRows> const& rows, Experiment::Parts const& parts
   set.other_rows = of(ArmRowChoice::others);
 }
 
-void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
+void use_recordings(Experiment::Parts& parts, Files&& train, Files&& validation) {
   auto& model = parts.arm->model;
   if (!model.laws().empty()) {
     ArmFilter const filter{parts.filter, section_or_empty(parts.job, "filter")};
@@ -264,7 +264,7 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
   }
   if (parts.arm->keeps_channels) {
     parts.arm->train = train;
-    parts.arm->validate = unseen;
+    parts.arm->validate = validation;
   }
   std::vector<ArmTrack> tracks;
   bool const is_instrumental = instrumental_section(parts) != nullptr;
@@ -280,9 +280,9 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
     parts.train.regression.arm->instruments = instruments_of(
         std::move(tracks),
         {parts.arm->model, parts.filter, section_or_empty(parts.job, "filter"), parts.arm->noise.deviation});
-  if (unseen.empty()) return;
+  if (validation.empty()) return;
   parts.validate.emplace();
-  stack(prepare_files(std::move(unseen), parts, *parts.validate), parts, *parts.validate);
+  stack(prepare_files(std::move(validation), parts, *parts.validate), parts, *parts.validate);
 }
 
 }  // namespace
@@ -315,26 +315,26 @@ void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, Pa
                    RecordedTables const& tables, Experiment::Purpose purpose) {
   auto const names = parts.arm->model.joint_names();
   Files train = read_files(parts.job, options.train, options, payloads.train, names, tables);
-  Files unseen = read_files(parts.job, options.validate, options, payloads.validate, names, tables);
-  split_files(train, unseen, options.train_share);
-  bring_files_to_one_rate(train, unseen);
-  for (auto* files : {&train, &unseen})
+  Files validation = read_files(parts.job, options.validate, options, payloads.validate, names, tables);
+  split_files(train, validation, options.train_share);
+  bring_files_to_one_rate(train, validation);
+  for (auto* files : {&train, &validation})
     for (auto& file : *files) {
       take_motor_torques(file.joints, parts.arm->model.chain(), options);
       add_wrench(file, parts.arm->model.chain(), options);
     }
   for (auto& file : train) grade_standstill(file.joints);
-  choose_filter(parts, train, unseen);
-  for (auto* files : {&train, &unseen}) examine_arm_torques(*files, parts, options, purpose);
-  use_recordings(parts, std::move(train), std::move(unseen));
+  choose_filter(parts, train, validation);
+  for (auto* files : {&train, &validation}) examine_arm_torques(*files, parts, options, purpose);
+  use_recordings(parts, std::move(train), std::move(validation));
 }
 
 void use_arm_simulation(Experiment::Parts& parts, ArmSimulationPlan const& plan) {
   auto simulated = simulate_arms(plan, static_cast<std::uint64_t>(parts.experiment.seed));
-  Files train, unseen;
+  Files train, validation;
   train.push_back({std::move(simulated.train)});
-  for (auto& joints : simulated.validate) unseen.push_back({std::move(joints)});
-  use_recordings(parts, std::move(train), std::move(unseen));
+  for (auto& joints : simulated.validate) validation.push_back({std::move(joints)});
+  use_recordings(parts, std::move(train), std::move(validation));
   parts.train.simulated = true;
   if (parts.validate) parts.validate->simulated = true;
   // without drives the base parameters gather something else

@@ -139,19 +139,19 @@ ArmIdentifiability arm_identifiability(Experiment::Parts const& parts) {
   auto const found = gram_identifiability(phi.transpose() * phi);
   auto const names = parts.parameter_names();
   std::size_t alone = 0, grouped = 0;
-  std::vector<Index> unseen;
+  std::vector<Index> not_seen;
   for (std::size_t k = 0; k < found.seen.size(); ++k) {
     alone += found.seen[k] == Seen::alone;
     grouped += found.seen[k] == Seen::in_a_group;
-    if (found.seen[k] == Seen::not_at_all) unseen.push_back(static_cast<Index>(k));
+    if (found.seen[k] == Seen::not_at_all) not_seen.push_back(static_cast<Index>(k));
   }
   ArmIdentifiability said;
   said.seen = found.seen;
   said.all_seen = alone == names.size();
   said.words = fmt::format("{} parameters: {} alone, {} only in a group, {} not at all", names.size(), alone, grouped,
-                           unseen.size());
+                           not_seen.size());
   for (auto const& group : found.groups) said.words += fmt::format("; together: {}", list_of(names, group));
-  if (!unseen.empty()) said.words += fmt::format("; not seen: {}", list_of(names, unseen));
+  if (!not_seen.empty()) said.words += fmt::format("; not seen: {}", list_of(names, not_seen));
   if (!said.all_seen) said.words += wanted_motion(parts);
   return said;
 }

@@ -53,7 +53,7 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
   static OptionTable<DiagnoseOptions> const table(
       "diagnose", "what a diagnosis looks for and how sure it must be",
       {{"effects", &DiagnoseOptions::effects, "effects to look for: \"all\", or names (torquescope list effects)"},
-       {"twins", &DiagnoseOptions::twins, "1", 20.0, 100000.0,
+       {"twins", &DiagnoseOptions::replicates, "1", 20.0, 100000.0,
         "replicates, simulated recordings of the fitted model, at most; more where q could not be shown with so few"},
        {"q", &DiagnoseOptions::q, "1", 1e-6, 0.5, "share of false names that is put up with among the names given"},
        {"max_effects", &DiagnoseOptions::max_effects, "1", 1.0, 20.0, "effects that are named at most"},

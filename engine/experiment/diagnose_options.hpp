@@ -14,7 +14,7 @@ namespace torquescope {
 
 struct DiagnoseOptions {
   std::vector<std::string> effects{"all"};
-  std::int64_t twins = 200;
+  std::int64_t replicates = 200;
   double q = 0.05;
   std::int64_t max_effects = 5;
   double delta = 0.0025;

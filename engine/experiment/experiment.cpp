@@ -144,7 +144,7 @@ FitnessChoice fitness_choice(Experiment::Parts const& parts, EstimatorPlan const
 std::string Experiment::diagnose_line() const {
   return fmt::format("{}: {}, {}; {}, {}", name(), counted(parts_->joints(), "joint"),
                      counted(parts_->parameters(), "parameter"), counted(parts_->effects.size(), "effect"),
-                     counted(static_cast<std::size_t>(parts_->diagnose.twins), "replicate"));
+                     counted(static_cast<std::size_t>(parts_->diagnose.replicates), "replicate"));
 }
 
 std::string Experiment::data_line() const {
@@ -317,7 +317,7 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   if (parts_->job.find("diagnose") != nullptr)
     lines.push_back({Level::ok, "diagnosis",
                      fmt::format("{}, {}", counted(parts_->effects.size(), "effect"),
-                                 counted(static_cast<std::size_t>(parts_->diagnose.twins), "replicate"))});
+                                 counted(static_cast<std::size_t>(parts_->diagnose.replicates), "replicate"))});
   if (parts_->job.find("diagnose") != nullptr || parts_->estimators.empty()) {
     auto const size = diagnosis_size(*parts_);
     lines.push_back({Level::ok, "diagnosis", estimate_words(size, estimate_diagnosis(size, threads))});

@@ -95,15 +95,15 @@ void use_files(Experiment::Parts& parts, RecordingOptions const& options, Record
   Section const section = section_or_empty(parts.job, "recording");
   auto const others = channels == Channels::kept ? OtherJoints::kept : OtherJoints::ignored;
   parts.train.recordings = read_recordings(parts.job, options.train, options, section, tables, others);
-  std::vector<Recording> unseen =
+  std::vector<Recording> validation =
       read_recordings(parts.job, options.validate, options, section, tables, OtherJoints::ignored);
-  require_inputs(parts.job, options, parts.train.recordings, unseen);
-  split_off_unseen(parts.train.recordings, unseen, options.train_share);
-  double const rate_hz = rate_of_job(parts.train.recordings, unseen);
+  require_inputs(parts.job, options, parts.train.recordings, validation);
+  split_off_validation(parts.train.recordings, validation, options.train_share);
+  double const rate_hz = rate_of_job(parts.train.recordings, validation);
   bring_to_rate(parts.train.recordings, rate_hz);
-  bring_to_rate(unseen, rate_hz);
+  bring_to_rate(validation, rate_hz);
   grade_standstill(parts.train.recordings, Grade::fault);
-  if (!unseen.empty()) parts.validate = DataSet{std::move(unseen), {}, {}, false};
+  if (!validation.empty()) parts.validate = DataSet{std::move(validation), {}, {}, false};
 }
 
 ServoJob use_recording_set(Experiment::Parts& parts) {

@@ -45,7 +45,7 @@ DecisionNumbers decision_numbers(DiagnoseOptions const& options, LevelOptions co
   numbers.delta = options.delta;
   numbers.tolerance = options.tolerance;
   numbers.least_fall = options.least_fall;
-  numbers.replicates = std::min(numbers.replicates, options.twins);
+  numbers.replicates = std::min(numbers.replicates, options.replicates);
   return numbers;
 }
 

@@ -54,13 +54,13 @@ void bring_joints_to_rate(std::vector<Recording>& joints, double rate_hz) {
 }
 
 void require_inputs(Job const& job, RecordingOptions const& options, std::vector<Recording> const& train,
-                    std::vector<Recording> const& unseen) {
+                    std::vector<Recording> const& validation) {
   std::vector<Problem> problems;
   auto const check = [&](char const* channel, Eigen::VectorXd Recording::*values) {
     auto const column = options.columns.find(channel);
     auto const has_it = [&](Recording const& one) { return (one.*values).size() > 0; };
     if (column == options.columns.end() || std::any_of(train.begin(), train.end(), has_it) ||
-        std::any_of(unseen.begin(), unseen.end(), has_it))
+        std::any_of(validation.begin(), validation.end(), has_it))
       return;
     problems.push_back(problem_at(section_or_empty(job, "recording"), "columns",
                                   fmt::format("no recording has the column \"{}\" ({})", column->second, channel),
@@ -72,12 +72,12 @@ void require_inputs(Job const& job, RecordingOptions const& options, std::vector
   if (!problems.empty()) throw Error(std::move(problems));
 }
 
-void split_off_unseen(std::vector<Recording>& train, std::vector<Recording>& unseen, double share) {
+void split_off_validation(std::vector<Recording>& train, std::vector<Recording>& validation, double share) {
   if (share >= 1.0) return;
   for (auto& recording : train) {
     auto [head, tail] = split_recording(recording, share);
     recording = std::move(head);
-    unseen.push_back(std::move(tail));
+    validation.push_back(std::move(tail));
   }
 }
 

@@ -17,7 +17,7 @@ RawTable table_of_job(Job const& job, std::string const& name, Section const& se
 
 // of a column that only some recordings need, one has it: else its name is wrong (Error 78)
 void require_inputs(Job const& job, RecordingOptions const& options, std::vector<Recording> const& train,
-                    std::vector<Recording> const& unseen);
+                    std::vector<Recording> const& validation);
 
 // that of the first where all are about the same, else the lowest
 double rate_of_job(std::vector<Recording> const& train, std::vector<Recording> const& validate);
@@ -27,6 +27,6 @@ void bring_to_rate(std::vector<Recording>& recordings, double rate_hz);
 void bring_joints_to_rate(std::vector<Recording>& joints, double rate_hz);
 
 // keeps the first `share` of every training recording; the rest stands behind `unseen`. A share of 1 changes nothing
-void split_off_unseen(std::vector<Recording>& train, std::vector<Recording>& unseen, double share);
+void split_off_validation(std::vector<Recording>& train, std::vector<Recording>& validation, double share);
 
 }  // namespace torquescope

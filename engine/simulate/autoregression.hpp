@@ -1,6 +1,6 @@
 #pragma once
-// A stationary noise as white noise through its own past: what a residual that is not white looks like, so that twins
-// can carry the same spectrum.
+// A stationary noise as white noise through its own past: what a residual that is not white looks like, so that
+// replicates can carry the same spectrum.
 //
 // Equation   x_k = sum_i a_i x_(k-i) + innovation n_k,  i = 1 .. order;  order 0 is white noise of this std
 // Units      std and innovation in the unit of x

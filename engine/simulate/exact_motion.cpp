@@ -92,7 +92,7 @@ void record_exact_motion(SimulationPlan const& plan, Reference const& reference,
   Motion motion = exact_motion(reference, rate_hz, plan.simulation.samples());
   recording.has_exact_motion = true;
   recording.true_torque = torque_of(plan.plant, motion);
-  bool const unseen = key.run > 0, orthogonal = noise.orthogonal_mse > 0.0 && !unseen;
+  bool const validation = key.run > 0, orthogonal = noise.orthogonal_mse > 0.0 && !validation;
   if (orthogonal) recording.torque = orthogonal_noise(columns_of(plan.plant, motion), noise.orthogonal_mse, key);
   recording.time_s = std::move(motion.time_s);
   recording.position = std::move(motion.q);  // reference and true position too (joint_simulation.hpp)

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/simulate/loop_law.hpp"
-#include "engine/simulate/twin_lanes.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 
 namespace torquescope {
 
@@ -17,35 +17,36 @@ class LaneController {
  public:
   // before the start the joint came along at its first velocity
   LaneController(LoopLaw const& law, double start_position, double start_velocity, double rate_hz)
-      : law_(law), seen_(law.position.size() * twin_lanes) {
+      : law_(law), seen_(law.position.size() * replicate_lanes) {
     for (std::size_t lag = 0; lag < law.position.size(); ++lag)
-      std::fill_n(seen_.data() + lag * twin_lanes, twin_lanes,
+      std::fill_n(seen_.data() + lag * replicate_lanes, replicate_lanes,
                   start_position - static_cast<double>(lag + 1) * start_velocity / rate_hz);
   }
 
   void command(double const* measured, double open, double wanted, double* torque) {
     std::size_t const lags = law_.position.size();
     newest_ = (newest_ == 0 ? lags : newest_) - 1;
-    std::copy_n(measured, twin_lanes, seen_.data() + newest_ * twin_lanes);
-    alignas(64) double sum[twin_lanes];
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    std::copy_n(measured, replicate_lanes, seen_.data() + newest_ * replicate_lanes);
+    alignas(64) double sum[replicate_lanes];
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       summed_error_[lane] += wanted - measured[lane];
       sum[lane] = open + law_.integral * summed_error_[lane];
     }
     std::size_t place = newest_;
     for (double const gain : law_.position) {
-      double const* const q = seen_.data() + place * twin_lanes;
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) sum[lane] += gain * q[lane];
+      double const* const q = seen_.data() + place * replicate_lanes;
+      for (std::size_t lane = 0; lane < replicate_lanes; ++lane) sum[lane] += gain * q[lane];
       if (++place == lags) place = 0;
     }
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) torque[lane] = std::clamp(sum[lane], law_.least, law_.most);
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
+      torque[lane] = std::clamp(sum[lane], law_.least, law_.most);
   }
 
  private:
   LoopLaw const& law_;
   std::vector<double> seen_;  // [lag][lanes], a ring
   std::size_t newest_ = 0;
-  double summed_error_[twin_lanes] = {};
+  double summed_error_[replicate_lanes] = {};
 };
 
 }  // namespace torquescope

@@ -23,7 +23,7 @@ double between_ticks(Eigen::VectorXd const& signal, double ticks) {
   return signal[before] + (tick - static_cast<double>(before)) * (signal[after] - signal[before]);
 }
 
-using LaneTorques = std::array<double, twin_lanes>;
+using LaneTorques = std::array<double, replicate_lanes>;
 
 // the same in all lanes
 constexpr LaneTorques filled(double value) {
@@ -94,7 +94,7 @@ class CatalogueEffect final : public LaneEffect {
     LaneTorques const coasting = torques(coasts);
     LaneTorques const at_one = asks_for_acceleration_ ? torques(accelerated(now, one)) : coasting;
     if (!is_partly_dry_) return add_straight(coasting.data(), at_one.data(), demand);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) demand.inertia[lane] += at_one[lane] - coasting[lane];
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) demand.inertia[lane] += at_one[lane] - coasting[lane];
     add_sliding(coasts, demand);
   }
 
@@ -252,12 +252,12 @@ LaneEffectMaker known_torque(Effect const& effect, std::vector<double> const& pa
 
 LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
                             LaneBaseline const& baseline) {
-  return lane_effect(effect, std::move(parameters), scales, baseline, twin_lanes);
+  return lane_effect(effect, std::move(parameters), scales, baseline, replicate_lanes);
 }
 
 LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
                             LaneBaseline const& baseline, std::size_t lanes) {
-  TORQUESCOPE_EXPECT(parameters.size() >= effect.n_linear() && lanes >= 1 && lanes <= twin_lanes);
+  TORQUESCOPE_EXPECT(parameters.size() >= effect.n_linear() && lanes >= 1 && lanes <= replicate_lanes);
   TORQUESCOPE_EXPECT(effect.takes_shape(parameters.size() - effect.n_linear()));
   if (effect.is_given()) return known_torque(effect, parameters, baseline);
   return [&effect, parameters = std::move(parameters), scales, baseline, lanes] {

@@ -5,7 +5,7 @@
 //            between them at rest); called once per integration step or tick, in the order of time
 // Channels   shift_position(): added before the encoder, so the controller sees it; shift_torque(): added to the logged
 //            torque, which nobody else sees; called once per tick
-// Shapes     twin_lanes numbers each; every function adds to what is there
+// Shapes     replicate_lanes numbers each; every function adds to what is there
 // Units      SI
 // Threads    one object per group of replicates, used by one thread; a LaneEffectMaker is called from any number
 
@@ -15,24 +15,24 @@
 #include <vector>
 
 #include "engine/effects/effect.hpp"
-#include "engine/simulate/twin_lanes.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 
 namespace torquescope {
 
 // add(): the middle of the coming step, as far as it can be foreseen; channels: the tick itself, step_s a whole tick
 struct LaneInstant {
   double time_s = 0.0, step_s = 0.0;
-  alignas(64) double q[twin_lanes] = {};
-  alignas(64) double dq[twin_lanes] = {};
-  alignas(64) double ddq[twin_lanes] = {};
-  alignas(64) double motor_torque[twin_lanes] = {};  // held since the last tick, without the gear load
+  alignas(64) double q[replicate_lanes] = {};
+  alignas(64) double dq[replicate_lanes] = {};
+  alignas(64) double ddq[replicate_lanes] = {};
+  alignas(64) double motor_torque[replicate_lanes] = {};  // held since the last tick, without the gear load
 };
 
 struct LaneDemand {
-  alignas(64) double smooth[twin_lanes] = {};
-  alignas(64) double inertia[twin_lanes] = {};
-  alignas(64) double forward[twin_lanes] = {};
-  alignas(64) double backward[twin_lanes] = {};
+  alignas(64) double smooth[replicate_lanes] = {};
+  alignas(64) double inertia[replicate_lanes] = {};
+  alignas(64) double forward[replicate_lanes] = {};
+  alignas(64) double backward[replicate_lanes] = {};
 };
 
 class LaneEffect {

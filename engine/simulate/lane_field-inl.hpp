@@ -3,7 +3,7 @@
 // Equation   ddq = held - weight(q) - damping dq, each over the inertia; weight: its Taylor series about an angle
 // Steps      second-order Taylor
 
-#include "engine/simulate/twin_lanes.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 #include "hwy/highway.h"
 
 #ifndef TORQUESCOPE_SIMULATE_LANE_ACCELERATIONS
@@ -11,12 +11,12 @@
 namespace torquescope {
 // accelerations: every torque divided by the inertia; the weight as its Taylor series about `from`
 struct LaneAccelerations {
-  alignas(64) double held_forward[twin_lanes];
-  alignas(64) double held_backward[twin_lanes];
-  alignas(64) double from[twin_lanes];
-  alignas(64) double weight[twin_lanes];
-  alignas(64) double weight_slope[twin_lanes];
-  alignas(64) double damping[twin_lanes];
+  alignas(64) double held_forward[replicate_lanes];
+  alignas(64) double held_backward[replicate_lanes];
+  alignas(64) double from[replicate_lanes];
+  alignas(64) double weight[replicate_lanes];
+  alignas(64) double weight_slope[replicate_lanes];
+  alignas(64) double damping[replicate_lanes];
 };
 }  // namespace torquescope
 #endif
@@ -32,20 +32,20 @@ HWY_BEFORE_NAMESPACE();
 namespace torquescope::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<double, twin_lanes>;
+using D = hn::CappedTag<double, replicate_lanes>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 inline constexpr D d;
 inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
 // two vectors in flight hide half of each other's latency; more would spill with AVX2's 16 registers
-inline constexpr std::size_t n_vectors = vector_lanes * 2 <= twin_lanes ? 2 : 1;
+inline constexpr std::size_t n_vectors = vector_lanes * 2 <= replicate_lanes ? 2 : 1;
 
 // sine, cosine: of the angle, where there is a weight
 template <bool has_weight>
 HWY_INLINE void accelerate(LaneJoints const& joints, LaneTorques const& torques, LaneState const& state,
                            double const* sine, double const* cosine, LaneAccelerations& a) {
   V const one = hn::Set(d, 1.0);
-  for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes) {
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += vector_lanes) {
     V const inertia = hn::Load(d, joints.inertia + lane);
     V const per_inertia = hn::Div(one, hn::Add(inertia, hn::Load(d, torques.added_inertia + lane)));
     V const held = hn::Load(d, torques.held + lane);

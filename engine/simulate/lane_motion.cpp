@@ -8,10 +8,10 @@ LaneInstant instant_of(LaneState const& state, double time_s, double step_s, dou
   LaneInstant at;
   at.time_s = time_s;
   at.step_s = step_s;
-  std::copy_n(state.q, twin_lanes, at.q);
-  std::copy_n(state.dq, twin_lanes, at.dq);
-  std::copy_n(state.ddq, twin_lanes, at.ddq);
-  std::copy_n(motor_torque, twin_lanes, at.motor_torque);
+  std::copy_n(state.q, replicate_lanes, at.q);
+  std::copy_n(state.dq, replicate_lanes, at.dq);
+  std::copy_n(state.ddq, replicate_lanes, at.ddq);
+  std::copy_n(motor_torque, replicate_lanes, at.motor_torque);
   return at;
 }
 
@@ -42,7 +42,7 @@ void LaneMotion::move_on(LaneJoints const& joints, double time_s, std::size_t st
   }
   LaneInstant at;  // in the middle of a step
   at.step_s = steps_.step_s;
-  std::copy_n(command, twin_lanes, at.motor_torque);
+  std::copy_n(command, replicate_lanes, at.motor_torque);
   for (std::size_t step = 0; step < steps; ++step) {
     at.time_s = time_s + static_cast<double>(step) * steps_.step_s;
     foresee_lanes(state, at);

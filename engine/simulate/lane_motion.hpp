@@ -4,7 +4,7 @@
 //
 // Use        one object per group of lanes and recording: effects remember
 // Units      SI; times since the start of the recording
-// Accuracy   as twin_lanes.hpp
+// Accuracy   as replicate_lanes.hpp
 // Threads    used by one thread
 
 #include <memory>

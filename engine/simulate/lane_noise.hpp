@@ -3,7 +3,7 @@
 //
 // Random     addressed by (seed, recording, set, stream, replicate, draw): one lane's numbers do not depend on its
 //            neighbours
-// Shapes     every array: twin_lanes
+// Shapes     every array: replicate_lanes
 // Threads    an object belongs to one group on one thread
 
 #include <array>
@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "engine/base/random_stream.hpp"
-#include "engine/simulate/clean_twin.hpp"
+#include "engine/simulate/replicate_simulator.hpp"
 #include "engine/simulate/sticking_lanes.hpp"
 #include "kernels/philox.hpp"
 
 namespace torquescope {
 
 // numbers are part of the address: never renumber
-enum class TwinStream : std::uint32_t {
+enum class ReplicateStream : std::uint32_t {
   torque = 0,
   disturbance = 1,
   position = 2,
@@ -29,7 +29,7 @@ enum class TwinStream : std::uint32_t {
   wander_level = 7
 };
 
-std::uint32_t stream_number(TwinAddress const& address, TwinStream stream);
+std::uint32_t stream_number(ReplicateAddress const& address, ReplicateStream stream);
 
 // streams have a second half, for what goes beside the first: no batch has so many groups
 inline constexpr std::uint32_t second_half = std::uint32_t{1} << 24;
@@ -37,7 +37,7 @@ inline constexpr std::uint32_t second_half = std::uint32_t{1} << 24;
 // one noise of one group: an autoregression per lane
 class LaneNoise {
  public:
-  LaneNoise(TwinAddress const& address, TwinStream stream, std::uint32_t group, Autoregression model);
+  LaneNoise(ReplicateAddress const& address, ReplicateStream stream, std::uint32_t group, Autoregression model);
   // the next sample of every lane
   void next(double* out);
 
@@ -47,11 +47,11 @@ class LaneNoise {
   void draw();
 
   Autoregression model_;
-  kernels::PhiloxStreams streams_;                             // neighbours, one per lane
-  std::size_t next_block_ = 0;                                 // of every stream
-  std::array<double, ticks_together * twin_lanes> normals_{};  // of the present ticks, tick by tick
-  std::size_t tick_ = ticks_together;                          // of these, the next one to give
-  std::vector<double> history_;                                // [order][lanes], a ring
+  kernels::PhiloxStreams streams_;                                  // neighbours, one per lane
+  std::size_t next_block_ = 0;                                      // of every stream
+  std::array<double, ticks_together * replicate_lanes> normals_{};  // of the present ticks, tick by tick
+  std::size_t tick_ = ticks_together;                               // of these, the next one to give
+  std::vector<double> history_;                                     // [order][lanes], a ring
   std::size_t newest_ = 0;
 };
 
@@ -59,30 +59,31 @@ class LaneNoise {
 // null knows what is not known. Where none was found there may still be one.
 class LaneLevels {
  public:
-  LaneLevels(TwinAddress const& address, TwinStream stream, std::uint32_t group, double std, double variance_error);
+  LaneLevels(ReplicateAddress const& address, ReplicateStream stream, std::uint32_t group, double std,
+             double variance_error);
   bool is_any() const { return is_any_; }
   double operator[](std::size_t lane) const { return std_[lane]; }
 
  private:
-  double std_[twin_lanes];
+  double std_[replicate_lanes];
   bool is_any_ = false;  // asked for at every tick
 };
 
 // the level of dry friction, 1 at the start: a random walk that does not go below 0
 class LaneFriction {
  public:
-  LaneFriction(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double tick_s);
+  LaneFriction(ReplicateAddress const& address, std::uint32_t group, ReplicateLoop const& loop, double tick_s);
   double const* level() const { return level_; }
   void next();
 
  private:
   LaneLevels std_;  // of one tick's change
   LaneNoise change_;
-  double level_[twin_lanes];
+  double level_[replicate_lanes];
 };
 
 // a law for every lane, one draw of the creep and one of the length; bent as of a joint that moves at start_velocity
-void draw_sticking(TwinAddress const& address, std::uint32_t group, StickingRange const& range, double start_velocity,
-                   LaneSticking& sticking);
+void draw_sticking(ReplicateAddress const& address, std::uint32_t group, StickingRange const& range,
+                   double start_velocity, LaneSticking& sticking);
 
 }  // namespace torquescope

@@ -1,4 +1,4 @@
-// One step of a joint whose dry friction holds at once (twin_lanes.hpp); compiled once per instruction set, so no
+// One step of a joint whose dry friction holds at once (replicate_lanes.hpp); compiled once per instruction set, so no
 // #pragma once.
 //
 // Equation   that of lane_field-inl.hpp while it slides; where the velocity meets zero the step is cut, and the rest of

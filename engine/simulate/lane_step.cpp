@@ -25,7 +25,7 @@ inline constexpr double least_inertia_left = 0.05;
 
 void foresee(LaneState const& state, LaneInstant& at) {
   V const half = hn::Set(d, 0.5 * at.step_s), zero = hn::Zero(d);
-  for (std::size_t lane = 0; lane < twin_lanes; lane += hn::MaxLanes(d)) {
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += hn::MaxLanes(d)) {
     V const dq = hn::LoadU(d, state.dq + lane), ddq = hn::LoadU(d, state.ddq + lane);
     V const next = hn::Add(dq, hn::Mul(half, ddq));
     hn::StoreU(hn::Add(hn::LoadU(d, state.q + lane), hn::Mul(half, dq)), d, at.q + lane);
@@ -37,7 +37,7 @@ void foresee(LaneState const& state, LaneInstant& at) {
 void load(double const* inertia, LaneDryFriction const& friction, double const* held, double const* level,
           LaneDemand const& demand, LaneState const& state, LaneTorques& torques) {
   V const taken = hn::Set(d, 1.0 - least_inertia_left), zero = hn::Zero(d), half = hn::Set(d, 0.5);
-  for (std::size_t lane = 0; lane < twin_lanes; lane += hn::MaxLanes(d)) {
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += hn::MaxLanes(d)) {
     V const most_taken = hn::Neg(hn::Mul(taken, hn::LoadU(d, inertia + lane)));
     V const to_forward = hn::LoadU(d, friction.forward + lane), to_backward = hn::LoadU(d, friction.backward + lane);
     V const wanted = hn::LoadU(d, demand.inertia + lane), own = hn::LoadU(d, level + lane);
@@ -59,12 +59,12 @@ void load(double const* inertia, LaneDryFriction const& friction, double const* 
 }
 
 void add(double const* torque, double* sum) {
-  for (std::size_t lane = 0; lane < twin_lanes; lane += hn::MaxLanes(d))
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += hn::MaxLanes(d))
     hn::StoreU(hn::Add(hn::LoadU(d, sum + lane), hn::LoadU(d, torque + lane)), d, sum + lane);
 }
 
 void straight(double const* coasting, double const* at_one, LaneDemand& demand) {
-  for (std::size_t lane = 0; lane < twin_lanes; lane += hn::MaxLanes(d)) {
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += hn::MaxLanes(d)) {
     V const smooth = hn::LoadU(d, coasting + lane), slope = hn::Sub(hn::LoadU(d, at_one + lane), smooth);
     hn::StoreU(hn::Add(hn::LoadU(d, demand.smooth + lane), smooth), d, demand.smooth + lane);
     hn::StoreU(hn::Add(hn::LoadU(d, demand.inertia + lane), slope), d, demand.inertia + lane);
@@ -89,8 +89,8 @@ void foresee_lanes(LaneState const& state, LaneInstant& at) {
 }
 
 LaneDryFriction::LaneDryFriction(double forward_, double backward_) {
-  std::fill_n(forward, twin_lanes, forward_);
-  std::fill_n(backward, twin_lanes, backward_);
+  std::fill_n(forward, replicate_lanes, forward_);
+  std::fill_n(backward, replicate_lanes, backward_);
 }
 
 void load_lanes(double const* inertia, LaneDryFriction const& friction, double const* held, double const* level,

@@ -8,7 +8,7 @@
 // Threads    free functions
 
 #include "engine/simulate/lane_effect.hpp"
-#include "engine/simulate/twin_lanes.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 
 namespace torquescope {
 
@@ -18,8 +18,8 @@ void foresee_lanes(LaneState const& state, LaneInstant& at);
 
 // dry friction of the joint by itself, at its level of 1
 struct LaneDryFriction {
-  alignas(64) double forward[twin_lanes] = {};
-  alignas(64) double backward[twin_lanes] = {};
+  alignas(64) double forward[replicate_lanes] = {};
+  alignas(64) double backward[replicate_lanes] = {};
 
   LaneDryFriction() = default;
   LaneDryFriction(double forward, double backward);  // the same in all lanes

@@ -1,5 +1,5 @@
 #pragma once
-// A discrete controller as its numbers, linear in what it measures: what an identified loop is, and what twins are
+// A discrete controller as its numbers, linear in what it measures: what an identified loop is, and what replicates are
 // simulated with.
 //
 // Equation   u_k = constant + sum_i position[i] q_(k-i) + sum_j reference[j] r_(k+shift-behind+j) + integral sum_(i<=k)

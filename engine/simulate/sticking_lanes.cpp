@@ -45,7 +45,7 @@ template <bool has_weight>
 void advance_bristles(LaneAccelerations const& accelerations, double step_s, std::size_t steps, LaneSticking& sticking,
                       LaneState& state) {
   V const step = hn::Set(d, step_s), one = hn::Set(d, 1.0);
-  for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes) {
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += vector_lanes) {
     Field<has_weight> const field(accelerations, lane);
     Bristle const bristle(field.held_forward, field.held_backward, field.damping, hn::Load(d, sticking.creep + lane),
                           hn::Load(d, sticking.length + lane), step);
@@ -99,8 +99,8 @@ void advance_sticking_lanes(LaneJoints const& joints, LaneTorques const& torques
                             LaneSticking& sticking, LaneState& state) {
   if (!joints.has_weight)
     return TORQUESCOPE_DISPATCH(advance_sticking_light)(joints, torques, step_s, steps, sticking, state);
-  alignas(64) double sine[twin_lanes], cosine[twin_lanes];
-  kernels::cosine_sine_of_multiple(1.0, state.q, twin_lanes, cosine, sine);
+  alignas(64) double sine[replicate_lanes], cosine[replicate_lanes];
+  kernels::cosine_sine_of_multiple(1.0, state.q, replicate_lanes, cosine, sine);
   TORQUESCOPE_DISPATCH(advance_sticking_heavy)(joints, torques, sine, cosine, step_s, steps, sticking, state);
 }
 

@@ -14,7 +14,7 @@
 
 namespace torquescope {
 
-// what such a loop knows of the joint: of the terms of a TwinJoint, those that it feeds forward
+// what such a loop knows of the joint: of the terms of a ReplicateJoint, those that it feeds forward
 struct TrackedJoint {
   double inertia = 1.0, viscous = 0.0;
   double forward = 0.0, backward = 0.0;  // torque of dry friction while dq > 0, and while dq < 0; with the offset

@@ -61,7 +61,7 @@ class EffectOfTrials final : public LaneEffect {
 
   void shift_position(LaneInstant const& at, double* position) override {
     for (auto const& [lanes, effect] : groups_) {
-      double few[twin_lanes] = {};
+      double few[replicate_lanes] = {};
       effect->shift_position(gathered(at, lanes), few);
       for (std::size_t i = 0; i < lanes.size(); ++i) position[lanes[i]] += few[i];
     }
@@ -69,7 +69,7 @@ class EffectOfTrials final : public LaneEffect {
 
   void shift_torque(LaneInstant const& at, double* torque) override {
     for (auto const& [lanes, effect] : groups_) {
-      double few[twin_lanes] = {};
+      double few[replicate_lanes] = {};
       effect->shift_torque(gathered(at, lanes), few);
       for (std::size_t i = 0; i < lanes.size(); ++i) torque[lanes[i]] += few[i];
     }
@@ -87,9 +87,9 @@ class EffectOfTrials final : public LaneEffect {
 
 LaneEffectMaker trial_effect(Effect const& effect, std::vector<std::vector<double>> const& parameters,
                              JointScales const& scales, LaneBaseline const& baseline) {
-  TORQUESCOPE_EXPECT(parameters.size() == twin_lanes);
+  TORQUESCOPE_EXPECT(parameters.size() == replicate_lanes);
   std::vector<Group> groups;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     auto same = groups.begin();
     while (same != groups.end() && same->parameters != parameters[lane]) ++same;
     if (same == groups.end()) same = groups.insert(groups.end(), {{}, parameters[lane], {}});

@@ -3,7 +3,7 @@
 //
 // How        lanes with the same parameters go together, each group as lane_effect() has it: of the differences of a
 //            Jacobian most lanes share the parameters of any one effect
-// Shapes     parameters: twin_lanes vectors, each as Effect::runner takes them
+// Shapes     parameters: replicate_lanes vectors, each as Effect::runner takes them
 // Bits       of a lane: the same whatever stands in the others
 // Threads    as LaneEffectMaker
 

@@ -20,7 +20,7 @@
 namespace torquescope {
 
 // of a job, from the SHA-256 of its text and recordings; of "" it is the identity of nobody. What a job keeps on its
-// way (segments, twins) has another one than its result, which nobody ever removes
+// way (segments, replicates) has another one than its result, which nobody ever removes
 enum class Keeps { result, work };
 Sha256 job_identity(std::string const& inputs_sha256, Keeps keeps);
 

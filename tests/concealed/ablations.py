@@ -46,7 +46,7 @@ def with_level(key, value):
 
 
 def without_reference(job):
-    """No reference in the recording's columns: the loop cannot be identified, twins track the measured motion."""
+    """No reference in the recording's columns: the loop cannot be identified, replicates track the measured motion."""
     key = r'reference *= *"[^"]*"'
     edited = re.sub(rf"\b{key} *, *|, *{key}", "", job)
     if edited == job:

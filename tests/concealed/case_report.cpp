@@ -78,9 +78,9 @@ CaseReport report_case(Case const& one_case) {
 
   LoopRun const noisy = training_run(one_case, rig, one_case.effects, default_step_s);
   LoopRun const quiet = training_run(one_case, quiet_rig, one_case.effects, default_step_s);
-  Excitation const unseen = one_case.excitation(false);
+  Excitation const validation = one_case.excitation(false);
   LoopRun const validate =
-      run_closed_loop(with_faults(rig, one_case.effects), one_case.laws(), one_case.plan(unseen, false));
+      run_closed_loop(with_faults(rig, one_case.effects), one_case.laws(), one_case.plan(validation, false));
 
   auto const place = places_in_truth(one_case);
   CaseReport report;

@@ -1,7 +1,8 @@
 #pragma once
 // Runs a case and gathers what its truth file says.
 //
-// Runs       training and unseen motion, each with and without noise; the training motion once more with half the step
+// Runs       training and validation motion, each with and without noise; the training motion once more with half the
+//            step
 // Accuracy   step_error: half step against full step, rms, as share of the torque noise and of the encoder's rounding;
 //            all noises in the loop, but an exact encoder: a reading that rounds the other way because of the last bit
 //            is the loop's sensitivity, not the integrator's error

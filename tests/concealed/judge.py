@@ -198,11 +198,12 @@ def _is_right(judgement, truth):
     return judgement.verdict in ("named", "class", "partly", "data_fault") or not needed
 
 
-def _gap_closed(unseen, oracle):
+def _gap_closed(validation, oracle):
     """Share of the way from the baseline's error to the oracle's; an error that stays is a gap that stays."""
-    if unseen is None or unseen.get("before") is None or unseen.get("after") is None or unseen["before"] <= oracle:
+    before, after = (None, None) if validation is None else (validation.get("before"), validation.get("after"))
+    if before is None or after is None or before <= oracle:
         return None
-    return (unseen["before"] - unseen["after"]) / (unseen["before"] - oracle)
+    return (before - after) / (before - oracle)
 
 
 def _loop_ratio(loop):

@@ -68,9 +68,9 @@ def record(case, found, answer, seconds):
     document = {"case": case, "verdict": verdict, "effects": effects,
                 "ranking": [{"name": name, "family": family[name]} for name in answer.ranking],
                 "remark": answer.remark, "seconds": round(seconds, 3)}
-    before = rival_columns.unseen_relerr(found, [])
+    before = rival_columns.validation_relerr(found, [])
     if before is not None:
-        document["unseen"] = {"before": before, "after": rival_columns.unseen_relerr(found, answer.effects)}
+        document["unseen"] = {"before": before, "after": rival_columns.validation_relerr(found, answer.effects)}
     return document
 
 

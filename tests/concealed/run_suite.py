@@ -104,7 +104,7 @@ class Suite:
         for old in (verdict, result):
             old.unlink(missing_ok=True)
         command = [self.program, "diagnose", "job.toml", "--json", verdict, "--out", result,
-                   "--shard", "0/1"]  # in a Slurm array cases are shared, not the twins of one
+                   "--shard", "0/1"]  # in a Slurm array cases are shared, not the replicates of one
         environment = dict(os.environ)
         if self.threads:
             environment["OMP_NUM_THREADS"] = str(self.threads)

@@ -179,9 +179,9 @@ class NestedModels(unittest.TestCase):
     def test_is_blind_to_what_is_no_friction(self):
         self.assertEqual(nested_friction.answer(made(effects={"spring": 1.0})).effects, [])
 
-    def test_without_an_unseen_recording_the_end_of_the_training_stands_in(self):
+    def test_without_a_validation_recording_the_end_of_the_training_stands_in(self):
         found = made(effects={"stribeck": 0.8})
-        found.unseen = []
+        found.validation = []
         self.assertEqual(nested_friction.answer(found).effects, ["stribeck"])
 
 
@@ -194,17 +194,17 @@ class Timing(unittest.TestCase):
         short, long = self.delayed(-0.5e-3), self.delayed(8e-3)
         self.assertEqual([c.name for c in short.candidates], ["spring"])
         self.assertEqual(short.train.regressor.shape[1], 3)
-        self.assertEqual(short.unseen[0].regressor.shape[1], 3)
+        self.assertEqual(short.validation[0].regressor.shape[1], 3)
         self.assertEqual([c.name for c in long.candidates], ["spring", "delay"])
 
 
-class Unseen(unittest.TestCase):
+class Validation(unittest.TestCase):
     def test_error_of_a_perfect_model_is_the_noise_and_events_do_not_act(self):
         found = made(effects={"spring": 2.0}, noise=1e-9)
-        self.assertGreater(rival_columns.unseen_relerr(found, []), 0.5)
-        self.assertLess(rival_columns.unseen_relerr(found, ["spring"]), 1e-6)
+        self.assertGreater(rival_columns.validation_relerr(found, []), 0.5)
+        self.assertLess(rival_columns.validation_relerr(found, ["spring"]), 1e-6)
         found["spring"].is_event = True
-        self.assertGreater(rival_columns.unseen_relerr(found, ["spring"]), 0.5)
+        self.assertGreater(rival_columns.validation_relerr(found, ["spring"]), 0.5)
 
 
 STAND_IN = """#!{python}
@@ -232,7 +232,7 @@ def write_columns(path, found):
             effect.attrs["linear"] = text(["a", "b"][: candidate.n_linear])
             if candidate.n_shape:
                 effect["shape"] = np.zeros(candidate.n_shape)
-        for key, record in (("train", found.train), ("validate_1", found.unseen[0])):
+        for key, record in (("train", found.train), ("validate_1", found.validation[0])):
             group = here.create_group(key)
             group.attrs.update({"kept_rate_hz": record.rate_hz, "cutoff_hz": record.cutoff_hz})
             group["torque"], group["regressor"], group["row"] = record.torque, record.regressor, np.arange(len(record))

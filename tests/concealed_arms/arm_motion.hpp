@@ -24,7 +24,7 @@ struct ArmMotion {
   Eigen::VectorXd fastest() const { return v.cwiseAbs().rowwise().maxCoeff(); }
 };
 
-// `stream` tells the training motion from the unseen one
+// `stream` tells the training motion from the validation one
 ArmMotion drawn_motion(MotionKind kind, Arm const& arm, std::uint64_t seed, std::string const& stream);
 
 }  // namespace concealed_arms

@@ -69,10 +69,10 @@ drive_inertia = true
 
 [diagnose]
 effects = "all"
-twins = )";
+replicates = )";
 
-// a name needs p below 0.05 / joints, and n twins show no p below 1 / (n + 1)
-constexpr int twins_a_joint = 24;
+// a name needs p below 0.05 / joints, and n replicates show no p below 1 / (n + 1)
+constexpr int replicates_a_joint = 24;
 
 std::vector<double> numbers(Eigen::VectorXd const& values) { return {values.begin(), values.end()}; }
 
@@ -139,7 +139,7 @@ void write_case(MadeCase const& made, std::filesystem::path const& folder) {
   write(folder / "train.csv", csv(made.train));
   write(folder / "unseen.csv", csv(made.validate));
   write(folder / "robot.toml", robot(made.of.plant.arm));
-  write(folder / "job.toml", job + printed("%d\n", twins_a_joint * made.of.plant.arm.joints()));
+  write(folder / "job.toml", job + printed("%d\n", replicates_a_joint * made.of.plant.arm.joints()));
   write(folder / "truth.json", truth_text(made));
 }
 

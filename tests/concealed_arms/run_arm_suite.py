@@ -78,7 +78,7 @@ class Suite:
         for old in (verdict, result):
             old.unlink(missing_ok=True)
         command = [self.program, "diagnose", "job.toml", "--json", verdict, "--out", result, "--quiet",
-                   "--shard", "0/1"]  # in a Slurm array cases are shared, not the twins of one
+                   "--shard", "0/1"]  # in a Slurm array cases are shared, not the replicates of one
         environment = {**os.environ, **({"OMP_NUM_THREADS": str(self.threads)} if self.threads else {})}
         began = time.monotonic()
         with open(self.out / "logs" / f"{folder}.txt", "w", encoding="utf-8") as log:

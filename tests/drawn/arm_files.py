@@ -100,7 +100,7 @@ class Case:
     friction: Friction
     gravity: np.ndarray  # the real one
     train: Taken
-    unseen: Taken
+    validation: Taken
     names: list[str]
     columns: tuple
     inertias: bool  # in the robot file
@@ -120,7 +120,7 @@ class Case:
         robot = (urdf_text(rng, self.in_file, self.names, self.inertias) if self.is_urdf else
                  toml_text(self.in_file, self.names, self.inertias, self.convention, self.said))
         (folder / ("arm.urdf" if self.is_urdf else "arm.toml")).write_text(robot)
-        for name, taken in (("train", self.train), ("unseen", self.unseen)):
+        for name, taken in (("train", self.train), ("unseen", self.validation)):
             self.write_recording(folder / f"{name}.csv", taken)
         write_job(folder / "job.toml", self.job())
 

@@ -34,14 +34,14 @@ def draw(rng, folder):
     n = len(case.joints)
     matrix, motor, other = transmission(rng, case.joints)
     noises = []
-    for taken in (case.train, case.unseen):  # the sensors' noise stays
+    for taken in (case.train, case.validation):  # the sensors' noise stays
         noise = taken.torque - full_torque(case.joints, taken.motion, case.friction, case.gravity)
         whole = torque_of(case, taken.motion, case.friction, matrix)
         noises.append(noise.std(0) / np.sqrt((whole**2).mean(0)))
         taken.torque = whole + noise
     at_motors = bool(rng.random() < 0.5)  # what is recorded: tau_joint = T' tau_motor
     if at_motors:
-        for taken in (case.train, case.unseen):
+        for taken in (case.train, case.validation):
             taken.torque = taken.torque @ np.linalg.inv(matrix)
     case.write(rng, folder)
     job = case.job()

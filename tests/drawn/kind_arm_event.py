@@ -30,7 +30,7 @@ def draw(rng, folder):
     if abs(shares[0] - shares[1]) < 0.15:
         shares[1] = 1.0 - shares[0] if abs(1 - 2 * shares[0]) > 0.15 else 0.3
     instants = []
-    for taken, share in zip((case.train, case.unseen), shares):
+    for taken, share in zip((case.train, case.validation), shares):
         time = taken.motion.time
         instants.append(time[int(share * len(time))])
         more = full_torque(loaded, taken.motion, case.friction, case.gravity) - full_torque(

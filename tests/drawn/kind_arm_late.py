@@ -14,7 +14,7 @@ def draw(rng, folder):
     joint = int(rng.integers(len(case.joints)))
     rate = 1 / np.diff(case.train.motion.time).mean()
     late = np.sign(late) * max(abs(late), 2.0 / rate)
-    for taken in (case.train, case.unseen):
+    for taken in (case.train, case.validation):
         time = taken.motion.time
         taken.torque = taken.torque.copy()
         taken.torque[:, joint] = np.interp(time - late, time, taken.torque[:, joint])

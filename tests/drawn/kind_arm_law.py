@@ -30,8 +30,8 @@ def draw(rng, folder):
     case.write(rng, folder)
     text = (folder / "job.toml").read_text()
     (folder / "held.toml").write_text(f'{text}\n[[model.effects]]\njoint = {joint + 1}\nname = "{LAWS[law]}"\n')
-    whole = full_torque(case.joints, case.unseen.motion, case.friction, case.gravity)
-    noise = (case.unseen.torque - whole).std(0) / np.sqrt((whole**2).mean(0))
+    whole = full_torque(case.joints, case.validation.motion, case.friction, case.gravity)
+    noise = (case.validation.torque - whole).std(0) / np.sqrt((whole**2).mean(0))
     label = f"{law} at joint {joint + 1} of {len(case.joints)}"
 
     def judge(call):

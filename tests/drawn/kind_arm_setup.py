@@ -53,7 +53,7 @@ def mistaken(kind, taken, i, j, size, case):
     return Taken(Motion(old.time, parts[0] * factor + zero, parts[1] * factor, parts[2] * factor), torque)
 
 
-def unseen_errors(call, job):
+def validation_errors(call, job):
     run = call("run", job, "--out", job.replace(".toml", ".h5"))
     if run.code:
         return None, f"run ends with {run.code}: {run.text[-300:]}"
@@ -88,11 +88,11 @@ def draw(rng, folder):
             "zero": rng.uniform(0.1, 0.5) * rng.choice([-1, 1]),
             "one_unit": float(np.exp(rng.uniform(3, 4.6)))}.get(kind)
     case.write(rng, folder)
-    sound = [case.train, case.unseen]
-    case.train, case.unseen = (mistaken(kind, one, i, j, size, case) for one in sound)
+    sound = [case.train, case.validation]
+    case.train, case.validation = (mistaken(kind, one, i, j, size, case) for one in sound)
     sound_gravity = case.gravity
     if kind == "no_gravity":  # a torque without it is right where it is said
-        sound, sound_gravity = [case.train, case.unseen], np.zeros(3)
+        sound, sound_gravity = [case.train, case.validation], np.zeros(3)
     for name, one in zip(("s_train", "s_unseen"), sound):
         case.write_recording(folder / f"{name}.csv", one)
     job = case.job()
@@ -111,7 +111,7 @@ def draw(rng, folder):
              f"{f'masses off {off:.2g}' if case.inertias else 'no masses'}")
 
     def judge(call):
-        least, wrong = unseen_errors(call, "sound.toml")
+        least, wrong = validation_errors(call, "sound.toml")
         if wrong:
             return f"{label}: sound: {wrong}"
         masses_sound = file_error(case.in_file, sound[0], sound_gravity)
@@ -120,7 +120,7 @@ def draw(rng, folder):
             return f"{label}: {check.text[-300:]}"
         said = [line["text"] for line in check.document.get("lines", []) if line["topic"] == "arm_setup"]
         if not said:
-            errors, wrong = unseen_errors(call, "job.toml")
+            errors, wrong = validation_errors(call, "job.toml")
             if wrong:
                 return f"{label}: silent, {wrong}"
             if worse(errors, least):
@@ -140,7 +140,7 @@ def draw(rng, folder):
         again = call("check", "pasted.toml")
         if "arm_setup" in again.topics() or "lines" not in again.document:
             return f"{label}: pasted, still: {again.text[-600:]}; before: {said[0]}"
-        errors, wrong = unseen_errors(call, "pasted.toml")
+        errors, wrong = validation_errors(call, "pasted.toml")
         if wrong:
             return f"{label}: pasted, {wrong}"
         if worse(errors, least):

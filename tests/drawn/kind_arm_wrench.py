@@ -32,7 +32,7 @@ def draw(rng, folder):
                                                [f"/wrench/{what}/{axis}" for what in ("force", "torque")
                                                 for axis in "xyz"], [f"ft{k}" for k in range(6)]])]
     noises = []
-    for name, taken in (("train", case.train), ("unseen", case.unseen)):
+    for name, taken in (("train", case.train), ("unseen", case.validation)):
         pushed = drawn_push(rng, case, taken.motion, tip, along_base, size)
         free = link_torque(case.joints, taken.motion, case.gravity)
         outside = free - link_torque(case.joints, taken.motion, case.gravity, pushed)  # of the push on the joints

@@ -256,7 +256,7 @@ class Arm(unittest.TestCase):
         self.refused('"offset"]', '"offzet"]', 'there is no effect "offzet"')
         self.refused("train_share = 0.6", "train_share = 1.6", "train_share = 1.6 is out of range")
 
-    def test_an_unseen_arm_that_stands_still_is_said_and_judges_nothing(self):
+    def test_a_validation_arm_that_stands_still_is_said_and_judges_nothing(self):
         rows = self.text.splitlines()
         still = [rows[0]]
         for k in range(2000):

@@ -87,11 +87,13 @@ class Sections(arm_cli.Arm):
                      "help: write its mass")
         self.refused(LOADED.replace(MASSES, f"{moments} = [0, 0, 0, 0.1, 0, 0.4]"), moments, "without payload_kg")
 
-    def test_wrong_payloads_of_unseen_recordings_are_said(self):
-        def unseen(masses):
+    def test_wrong_payloads_of_validation_recordings_are_said(self):
+        def validation(masses):
             return LOADED.replace(MASSES, f'{MASSES}\nvalidate = "arm.csv"\nvalidate_payload_kg = {masses}')
-        self.refused(unseen("[3]"), "validate_payload_kg", "no training recording carries 3 kg", "carry it there too")
-        self.refused(unseen("[0, 5.06]"), "validate_payload_kg", "2 numbers, for 1 recording", "help: write one number")
+        self.refused(validation("[3]"), "validate_payload_kg", "no training recording carries 3 kg",
+                     "carry it there too")
+        self.refused(validation("[0, 5.06]"), "validate_payload_kg", "2 numbers, for 1 recording",
+                     "help: write one number")
 
     def test_what_is_of_an_arm_is_refused_for_one_joint(self):
         arm = 'robot = "arm_robot.toml"\nfriction = ["viscous", "coulomb", "offset"]'

@@ -104,12 +104,13 @@ class Replay(cli_folder.Folder):
         with open(os.path.join(self.folder, "r.csv"), encoding="utf-8") as file:
             rows = [row for row in csv.DictReader(file) if row["recording"] == "2"]
         left = np.array([float(row["torque_measured"]) - float(row["torque_model_1"]) for row in rows])
-        unseen = next(one for one in made["recordings"] if one["purpose"] == "validate")
-        self.assertAlmostEqual(math.sqrt(np.mean(left**2)), unseen["channels"]["torque"]["models"][0]["rms"], places=6)
+        validation = next(one for one in made["recordings"] if one["purpose"] == "validate")
+        rms = validation["channels"]["torque"]["models"][0]["rms"]
+        self.assertAlmostEqual(math.sqrt(np.mean(left**2)), rms, places=6)
         with h5py.File(os.path.join(self.folder, "lab_replay.h5")) as file:
             group = file["replay/recording_2/torque"]
             self.assertEqual(group["simulated"].shape, (1, SECONDS * RATE_HZ))
-            self.assertAlmostEqual(group["rms"][0], unseen["channels"]["torque"]["models"][0]["rms"], places=12)
+            self.assertAlmostEqual(group["rms"][0], rms, places=12)
 
     def test_lm_finds_joint_and_gains_and_a_run_is_replayed(self):
         job = self.job('[loop]\ncontroller = "pd"\n', '[[estimator]]\nname = "lm"\n')

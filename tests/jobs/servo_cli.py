@@ -28,7 +28,7 @@ JOB = (JOBS / "servo_loads.toml").read_text(encoding="utf-8")
 TRUTH = {"command_delay": ("command_delay_s", 0.038), "goal_speed_limit": ("goal_speed_limit", 3.84),
          "load_friction": ("load_friction", 0.149)}
 NEAR = 0.02        # of the number: the promise of these records
-UNSEEN_RAD = 1e-3  # of the position, mean absolute; an encoder's step is 1.5e-3
+VALIDATION_RAD = 1e-3  # of the position, mean absolute; an encoder's step is 1.5e-3
 SIX = r"kp32_(steps|lift_and_drop)"
 FEW = r"m0\.5_l150_kp32_(steps|two_sines)"  # for what does not depend on what is found
 
@@ -77,7 +77,7 @@ class Sets(unittest.TestCase):
             (number,) = kept[name]["parameters"]
             self.assertEqual((number["name"], kept[name]["rivals"]), (parameter, []))
             self.assertLess(abs(number["value"] - truth), NEAR * truth, name)
-        self.assertLess(found["error"]["validate"]["after"], UNSEEN_RAD)
+        self.assertLess(found["error"]["validate"]["after"], VALIDATION_RAD)
         self.assertLess(found["error"]["validate"]["after"], 0.1 * found["error"]["validate"]["before"])
 
 

@@ -83,14 +83,14 @@ class Verdicts(unittest.TestCase):
         with open(self.folder / name, "w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows([self.head, *rows])
 
-    def said_of(self, rows, further=None, effects='["spring"]', unseen=None, filters="", further_options=""):
+    def said_of(self, rows, further=None, effects='["spring"]', validation=None, filters="", further_options=""):
         self.write("recorded.csv", rows)
         job = JOB.replace('["spring"]', effects).replace("[model]", filters + "[model]") + further_options
         if further:
             self.write("further.csv", further)
             job = job.replace('"recorded.csv"', '["recorded.csv", "further.csv"]')
-        if unseen:
-            self.write("unseen.csv", unseen)
+        if validation:
+            self.write("unseen.csv", validation)
             job = job.replace('"recorded.csv"', '"recorded.csv"\nvalidate = "unseen.csv"')
         (self.folder / "job.toml").write_text(job)
         (self.folder / "verdicts.h5").unlink(missing_ok=True)
@@ -121,7 +121,7 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(first["verdict"], "unexplained", "what one has and the other has not is no clean joint")
 
     def test_the_decision_stands_in_the_result_with_its_numbers(self):
-        alone = self.said_of(self.sprung, unseen=self.sprung_too)
+        alone = self.said_of(self.sprung, validation=self.sprung_too)
         decision = alone["joints"][0]["decision"]
         self.assertEqual(alone["verdict"], decision["verdict"])
         self.assertEqual([law["name"] for law in decision["accepted"]], ["spring"])
@@ -133,7 +133,7 @@ class Verdicts(unittest.TestCase):
         self.assertAlmostEqual(0.5 * (low + high), 0.5, delta=0.02)
 
     def test_a_sound_joint_misses_nothing_and_recordings_are_fitted_together(self):
-        sound = self.said_of(self.rows, unseen=self.other_rows)["joints"][0]
+        sound = self.said_of(self.rows, validation=self.other_rows)["joints"][0]
         self.assertEqual(sound["decision"]["accepted"], [])
         both = self.said_of(self.sprung, self.sprung_too)
         self.assertEqual([law["name"] for law in both["joints"][0]["decision"]["accepted"]], ["spring"])
@@ -147,8 +147,8 @@ class Verdicts(unittest.TestCase):
         self.assertEqual([one["name"] for one in sprung["joints"][0]["effects"]], ["spring"])
         self.assertNotEqual(self.said_of(sound, filters=slow)["verdict"], "named")
 
-    def test_a_short_unseen_recording_counts_with_its_samples(self):
-        said = self.said_of(self.sprung, unseen=self.sprung_too[:len(self.sprung_too) // 5])
+    def test_a_short_validation_recording_counts_with_its_samples(self):
+        said = self.said_of(self.sprung, validation=self.sprung_too[:len(self.sprung_too) // 5])
         self.assertEqual(said["verdict"], "named", said["reason"])
         joint = said["joints"][0]
         self.assertLess(joint["augmented"]["validation_relerr"], 0.5 * joint["baseline"]["validation_relerr"])
@@ -159,7 +159,7 @@ class Verdicts(unittest.TestCase):
         waved = [[*motion, str(float(torque) + 0.4 * math.sin(2 * math.pi * 1.7 * float(motion[0])))]
                  for *motion, torque in sprung]
         said = self.said_of(waved, effects='["spring", "periodic_disturbance"]',
-                            unseen=self.with_spring(self.other_rows))
+                            validation=self.with_spring(self.other_rows))
         joint = said["joints"][0]
         self.assertEqual([effect["name"] for effect in joint["effects"]], ["spring", "periodic_disturbance"])
         self.assertLess(joint["augmented"]["validation_relerr"], 0.3 * joint["baseline"]["validation_relerr"])

@@ -43,13 +43,13 @@ def renamed(recording, name):
     return ts.Recording(**recording.signals, name=name)
 
 
-MOTION, UNSEEN = renamed(simulated(11), "motion"), renamed(simulated(12), "unseen")
+MOTION, VALIDATION = renamed(simulated(11), "motion"), renamed(simulated(12), "unseen")
 
 
 class ADiagnosisOfArrays(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.found = ts.diagnose(MOTION, validate=UNSEEN, model=MODEL, filter=FILTER, diagnose={"twins": 60},
+        cls.found = ts.diagnose(MOTION, validate=VALIDATION, model=MODEL, filter=FILTER, diagnose={"twins": 60},
                                 experiment={"seed": 11})
 
     def test_names_what_was_concealed(self):
@@ -166,7 +166,7 @@ class AnIdentification(unittest.TestCase):
 
     def test_tells_parameters_intervals_and_histories(self):
         estimators = ["ols", {"name": "de", "generations": 20}]
-        fitted = ts.identify([MOTION, UNSEEN], model=MODEL, filter=FILTER, estimators=estimators,
+        fitted = ts.identify([MOTION, VALIDATION], model=MODEL, filter=FILTER, estimators=estimators,
                              experiment={"runs": 3})
         frame = fitted.to_frame()
         self.assertLess(frame.loc["inertia", "ols_low"], frame.loc["inertia", "ols"])
@@ -264,7 +264,7 @@ class Errors(unittest.TestCase):
         self.assertTrue([one for one in told if one.category is ts.RecordingWarning])
 
     def test_check_tells_everything_before_a_run(self):
-        lines = ts.check(MOTION, validate=UNSEEN, model=MODEL, filter=FILTER)
+        lines = ts.check(MOTION, validate=VALIDATION, model=MODEL, filter=FILTER)
         self.assertEqual([line.topic for line in lines[:3]], ["job", "recording", "rows"])
         self.assertFalse([line for line in lines if line.level == "fault"])
 
@@ -303,7 +303,7 @@ class Stopping(unittest.TestCase):
         threading.Timer(1.5, signal.raise_signal, [signal.SIGINT]).start()
         began = time.monotonic()
         with self.assertRaises(KeyboardInterrupt):
-            ts.diagnose(MOTION, validate=UNSEEN, model=MODEL, filter={"cutoff_hz": 30}, diagnose={"twins": 20000})
+            ts.diagnose(MOTION, validate=VALIDATION, model=MODEL, filter={"cutoff_hz": 30}, diagnose={"twins": 20000})
         self.assertLess(time.monotonic() - began, 1.5 + SECONDS_TO_STOP)
         left = set(os.listdir(tempfile.gettempdir())) - folders
         self.assertFalse([name for name in left if name.startswith("torquescope_")])

@@ -99,7 +99,7 @@ class Grading(unittest.TestCase):
 
 
 class Said(unittest.TestCase):
-    def test_errors_are_those_of_unseen_recordings_else_cross_validated(self):
+    def test_errors_are_those_of_validation_recordings_else_cross_validated(self):
         joint = {"effects": [], "baseline": {"validation_relerr": 0.3, "cv_relerr": 0.2},
                  "augmented": {"validation_relerr": 0.25, "cv_relerr": 0.1, "floor_relerr": 0.05},
                  "left_out": {"train": {"time_share": 0.7, "energy_share": 0.8},

@@ -50,8 +50,8 @@ class ReadsReplays(unittest.TestCase):
     def test_recordings_are_in_the_order_of_the_file(self):
         first, second = self.replay().recordings
         self.assertIsInstance(first, ReplayRecording)
-        self.assertEqual((first.name, first.purpose, first.is_unseen), ("lab_1.csv", "train", False))
-        self.assertEqual((second.name, second.purpose, second.is_unseen), ("lab_2.csv", "validate", True))
+        self.assertEqual((first.name, first.purpose, first.is_validation), ("lab_1.csv", "train", False))
+        self.assertEqual((second.name, second.purpose, second.is_validation), ("lab_2.csv", "validate", True))
         self.assertEqual((second.rate_hz, second.samples, second.drive, second.loop),
                          (200.0, 6000, "reference", "identified"))
         self.assertEqual((second.loop_words, second.loop_error), (make_replay.LOOP_WORDS, 0.031))
@@ -118,7 +118,7 @@ class ReadsReplays(unittest.TestCase):
             self.assertEqual(repr(result), "<Result 'lab_joint': replay of 2 recordings>")
             self.assertIn("lab_2.csv", result._repr_html_())
 
-    def test_the_summary_has_the_errors_of_every_model_unseen_first(self):
+    def test_the_summary_has_the_errors_of_every_model_validation_first(self):
         with Result(self.folder / "replayed.h5") as result:
             text = "\n".join(summary(result))
         self.assertLess(text.index("lab_2.csv"), text.index("lab_1.csv"))

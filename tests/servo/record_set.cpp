@@ -117,7 +117,7 @@ void write_truth(SetOptions const& options, RecordSet const& set, std::filesyste
 RecordSet draw_set(SetOptions const& options) {
   RecordSet set;
   double heaviest = 0.0, longest = 0.0;
-  for (auto const* masses : {&options.masses, &options.unseen_masses})
+  for (auto const* masses : {&options.masses, &options.validation_masses})
     for (double mass : *masses) heaviest = std::max(heaviest, mass);
   for (double length : options.lengths) longest = std::max(longest, length);
   Setting const worst{heaviest, longest, options.kps.front(), options.supply_v};
@@ -135,7 +135,7 @@ RecordSet draw_set(SetOptions const& options) {
         }
   };
   for (double mass : options.masses) add("train", mass);
-  for (double mass : options.unseen_masses) add("validate", mass);
+  for (double mass : options.validation_masses) add("validate", mass);
   return set;
 }
 

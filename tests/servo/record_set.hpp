@@ -14,9 +14,9 @@ namespace servo {
 
 struct SetOptions {
   std::uint64_t seed = 1;
-  std::vector<std::string> with;                              // effects
-  std::vector<double> masses{0.5, 1.0}, unseen_masses{0.75};  // kg
-  std::vector<double> lengths{0.1, 0.15}, kps{8.0, 32.0};     // m, firmware units
+  std::vector<std::string> with;                                  // effects
+  std::vector<double> masses{0.5, 1.0}, validation_masses{0.75};  // kg
+  std::vector<double> lengths{0.1, 0.15}, kps{8.0, 32.0};         // m, firmware units
   double supply_v = 12.0, duration_s = 6.0, jitter_s = 0.0;
   int motions = n_kinds;
 };

@@ -40,8 +40,8 @@ struct Case {
   std::string kind;  // clean single pair outside weak
   std::string rig;
   LoopDesign loop;
-  std::string train_motion, unseen_motion;
-  double train_s = 30, unseen_s = 20;
+  std::string train_motion, validation_motion;
+  double train_s = 30, validation_s = 20;
   Instruments instruments;
   Pipeline pipeline;
   std::vector<ConcealedLaw> laws;

@@ -110,9 +110,9 @@ void write_truth(Case const& which, std::filesystem::path const& path) {
 
 void write_case(Case const& which, std::filesystem::path const& folder, Options const& options) {
   std::filesystem::create_directories(folder / "truth");
-  for (bool unseen : {false, true}) {
-    auto const samples = record(which, unseen, options);
-    std::string const name = unseen ? "unseen.csv" : "train.csv";
+  for (bool validation : {false, true}) {
+    auto const samples = record(which, validation, options);
+    std::string const name = validation ? "unseen.csv" : "train.csv";
     write_recording(which, samples, folder / name);
     write_truth_recording(samples, folder / "truth" / name);
   }

@@ -40,11 +40,11 @@ Case usual(std::string name, std::string kind, std::string rig) {
   return c;
 }
 
-Case single(std::string effect, std::string rig, std::string train, std::string unseen, double train_s,
+Case single(std::string effect, std::string rig, std::string train, std::string validation, double train_s,
             ConcealedLaw law, Place place) {
   Case c = usual(effect, "single", std::move(rig));
-  c.train_motion = std::move(train), c.unseen_motion = std::move(unseen);
-  c.train_s = train_s, c.unseen_s = train_s * 0.7;
+  c.train_motion = std::move(train), c.validation_motion = std::move(validation);
+  c.train_s = train_s, c.validation_s = train_s * 0.7;
   law.name = std::move(effect);
   c.laws = {std::move(law)}, c.places = {std::move(place)};
   return c;

@@ -8,7 +8,7 @@ namespace stranger {
 double encoder_bits(int bits);
 Case usual(std::string name, std::string kind, std::string rig);
 // one concealed law, which gives the case its name
-Case single(std::string effect, std::string rig, std::string train, std::string unseen, double train_s,
+Case single(std::string effect, std::string rig, std::string train, std::string validation, double train_s,
             ConcealedLaw law, Place place = {});
 
 std::vector<Case> clean_cases();

@@ -4,10 +4,11 @@
 namespace stranger {
 namespace {
 
-Case clean(std::string name, std::string rig, std::string train, std::string unseen, double train_s, double unseen_s) {
+Case clean(std::string name, std::string rig, std::string train, std::string validation, double train_s,
+           double validation_s) {
   Case c = usual(std::move(name), "clean", std::move(rig));
-  c.train_motion = std::move(train), c.unseen_motion = std::move(unseen);
-  c.train_s = train_s, c.unseen_s = unseen_s;
+  c.train_motion = std::move(train), c.validation_motion = std::move(validation);
+  c.train_s = train_s, c.validation_s = validation_s;
   return c;
 }
 

@@ -4,11 +4,11 @@
 namespace stranger {
 namespace {
 
-Case further(std::string name, std::string kind, std::string rig, std::string train, std::string unseen, double train_s,
-             std::vector<ConcealedLaw> laws, std::vector<std::string> acceptable = {}) {
+Case further(std::string name, std::string kind, std::string rig, std::string train, std::string validation,
+             double train_s, std::vector<ConcealedLaw> laws, std::vector<std::string> acceptable = {}) {
   Case c = usual(std::move(name), std::move(kind), std::move(rig));
-  c.train_motion = std::move(train), c.unseen_motion = std::move(unseen);
-  c.train_s = train_s, c.unseen_s = train_s * 0.7;
+  c.train_motion = std::move(train), c.validation_motion = std::move(validation);
+  c.train_s = train_s, c.validation_s = train_s * 0.7;
   c.laws = std::move(laws), c.acceptable = std::move(acceptable);
   return c;
 }

@@ -32,12 +32,12 @@ std::vector<std::unique_ptr<Effect>> concealed(Case const& which, Rig const& rig
                                                std::string const& stream) {
   std::vector<std::unique_ptr<Effect>> effects;
   if (options.without) return effects;
-  bool const unseen = stream.ends_with("unseen");
+  bool const validation = stream.ends_with("unseen");
   int number = 0;
   for (auto law : which.laws) {
     if (options.only >= 0 && options.only != number++) continue;
     // nobody leans on it twice
-    if (unseen && law.form == "leaning") continue;
+    if (validation && law.form == "leaning") continue;
     law.values.at(0) *= options.scale;
     effects.push_back(make_effect(law, rig, stream));
   }
@@ -46,13 +46,13 @@ std::vector<std::unique_ptr<Effect>> concealed(Case const& which, Rig const& rig
 
 }  // namespace
 
-std::vector<Sample> record(Case const& which, bool unseen, Options const& options) {
-  std::string const stream = which.name + (unseen ? "/unseen" : "/train");
+std::vector<Sample> record(Case const& which, bool validation, Options const& options) {
+  std::string const stream = which.name + (validation ? "/unseen" : "/train");
   Rig const rig = find_rig(which.rig);
   Instruments const& seen_by = which.instruments;
   double const tick_s = 1 / which.loop.rate_hz;
-  auto const path = make_path(unseen ? which.unseen_motion : which.train_motion, rig, tick_s,
-                              unseen ? which.unseen_s : which.train_s, Chance{stream, "path"});
+  auto const path = make_path(validation ? which.validation_motion : which.train_motion, rig, tick_s,
+                              validation ? which.validation_s : which.train_s, Chance{stream, "path"});
   auto effects = concealed(which, rig, options, stream);
   double late_s = 0;
   for (auto const& effect : effects) late_s += effect->torque_lateness();

@@ -21,6 +21,6 @@ struct Options {
 };
 
 // motion "train" or "unseen"
-std::vector<Sample> record(Case const& which, bool unseen, Options const& options);
+std::vector<Sample> record(Case const& which, bool validation, Options const& options);
 
 }  // namespace stranger

@@ -41,14 +41,14 @@ MapAxis axis_of(std::string name, std::string unit, double from, double to, bool
     cell.to = from + (to - from) * (i + 1) / n_cells;
     cell.samples = 20 + 11 * (i % 7);
     double const middle = 0.5 * (cell.from + cell.to);
-    cell.twin_std = 0.008 + 0.001 * std::abs(wobble(i));
-    double const chance = 0.8 * cell.twin_std * wobble(i + 0.5);
-    cell.twin_mean = is_spectrum ? 0.01 : 0.001 * wobble(i + 0.25);
-    cell.mean_residual = cell.twin_mean + shape(middle) + chance;
+    cell.replicate_std = 0.008 + 0.001 * std::abs(wobble(i));
+    double const chance = 0.8 * cell.replicate_std * wobble(i + 0.5);
+    cell.replicate_mean = is_spectrum ? 0.01 : 0.001 * wobble(i + 0.25);
+    cell.mean_residual = cell.replicate_mean + shape(middle) + chance;
     if (is_spectrum) cell.mean_residual = std::abs(cell.mean_residual);
-    cell.z = (cell.mean_residual - cell.twin_mean) / cell.twin_std;
-    cell.after_residual = cell.twin_mean + 0.1 * shape(middle) + chance;
-    cell.after_z = (cell.after_residual - cell.twin_mean) / cell.twin_std;
+    cell.z = (cell.mean_residual - cell.replicate_mean) / cell.replicate_std;
+    cell.after_residual = cell.replicate_mean + 0.1 * shape(middle) + chance;
+    cell.after_z = (cell.after_residual - cell.replicate_mean) / cell.replicate_std;
     axis.cells.push_back(cell);
   }
   return axis;
@@ -244,12 +244,12 @@ JointDiagnosis invented_joint() {
   joint.disturbance = 0.011;
   joint.friction_wander = 0.0008;
   joint.shape_evaluations = 412;
-  joint.twins = 200;
+  joint.replicates = 200;
   joint.omnibus_z = 21.4;
   joint.omnibus_p = 1.0 / 201.0;
   joint.mismatch_rms = 0.104;
   joint.left_rms = 0.012;
-  for (int i = 0; i < 200; ++i) joint.twin_energy.push_back(0.26 + 0.01 * wobble(i));
+  for (int i = 0; i < 200; ++i) joint.replicate_energy.push_back(0.26 + 0.01 * wobble(i));
   return joint;
 }
 

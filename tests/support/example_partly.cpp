@@ -23,7 +23,7 @@ Diagnosis invented_partly() {
     for (auto& cell : axis.cells)
       if (axis.axis == "position" && cell.from >= 0.4) {
         cell.after_residual += 0.08;
-        cell.after_z += 0.08 / cell.twin_std;
+        cell.after_z += 0.08 / cell.replicate_std;
       }
   diagnosis.reason = reason_sentence(diagnosis);
   return diagnosis;

@@ -34,11 +34,11 @@ std::string block_text(ResultSummary const& summary, std::vector<EstimatorSummar
   columns.push_back(Align::left);
   TextTable table(columns, "  ");
   table.row(heading);
-  auto const add = [&](std::string const& name, auto const& train, auto const& unseen) {
+  auto const add = [&](std::string const& name, auto const& train, auto const& validation) {
     std::vector<std::string> cells{name};
     for (auto const* estimator : estimators) {
       cells.push_back(train(*estimator));
-      if (summary.has_validation) cells.push_back(unseen(*estimator));
+      if (summary.has_validation) cells.push_back(validation(*estimator));
     }
     table.row(cells);
   };
@@ -46,13 +46,13 @@ std::string block_text(ResultSummary const& summary, std::vector<EstimatorSummar
     add(
         fmt::format("{} {}", j + 1, printable(summary.arm->joints[j])),
         [j](EstimatorSummary const& e) { return in_percent_of(e.joint_relerr, j); },
-        [j](EstimatorSummary const& e) { return in_percent_of(e.unseen_joint_relerr, j); });
+        [j](EstimatorSummary const& e) { return in_percent_of(e.validation_joint_relerr, j); });
   add(
       "arm", [](EstimatorSummary const& e) { return in_percent(e.relerr_median); },
       [](EstimatorSummary const& e) { return in_percent(e.validation_relerr_median); });
   add(
       "arm, all rows", [](EstimatorSummary const& e) { return in_percent(e.relerr_all_rows); },
-      [](EstimatorSummary const& e) { return in_percent(e.unseen_relerr_all_rows); });
+      [](EstimatorSummary const& e) { return in_percent(e.validation_relerr_all_rows); });
   std::string const text = table.text(page_width());
   auto const end = text.find('\n');
   return ink.bold(text.substr(0, end)) + text.substr(end);
@@ -67,7 +67,7 @@ std::vector<std::string> unexplained_joints(ResultSummary const& summary) {
   for (std::size_t j = 0; j < summary.arm->joints.size(); ++j) {
     double least = std::numeric_limits<double>::infinity();
     for (auto const& estimator : summary.estimators) {
-      auto const& errors = summary.has_validation ? estimator.unseen_joint_relerr : estimator.joint_relerr;
+      auto const& errors = summary.has_validation ? estimator.validation_joint_relerr : estimator.joint_relerr;
       if (j < errors.size() && errors[j] < least) least = errors[j];
     }
     if (!std::isfinite(least) || least <= half) continue;

@@ -9,7 +9,7 @@
 
 namespace torquescope {
 
-// one line a joint, one for the arm, one for the arm over all rows; a column for each estimator, train and unseen
+// one line a joint, one for the arm, one for the arm over all rows; a column for each estimator, train and validation
 // Requires   summary.arm
 std::string joint_error_table(ResultSummary const& summary, Ink const& ink);
 

@@ -23,7 +23,7 @@ bool is_taken(Candidate const& one) { return is_tested(one) && one.decision != D
 // by columns that are shown: what was taken, then the smallest p that counts, equal ones by z; as the page
 // (scripts/report/torquescope/page/tables_of_diagnosis.py)
 std::vector<Candidate const*> in_order(JointDiagnosis const& joint) {
-  double const least = least_p(joint.twins);
+  double const least = least_p(joint.replicates);
   auto const rank = [least](Candidate const& one) {
     double const p = std::isfinite(one.p) ? std::max(one.p, least) : 2.0;
     double const z = std::isfinite(one.z) ? one.z : std::numeric_limits<double>::lowest();
@@ -55,7 +55,7 @@ bool is_cross_validated(Candidate const* one) { return std::isfinite(one->cv_gai
 
 std::string table_of(JointDiagnosis const& joint, std::vector<Candidate const*> const& shown, bool with_family) {
   using Align = TextTable::Align;
-  double const least = least_p(joint.twins);
+  double const least = least_p(joint.replicates);
   std::vector<Align> columns{Align::left, Align::left, Align::right, Align::right, Align::right, Align::left};
   bool const with_cv = std::any_of(shown.begin(), shown.end(), is_cross_validated);
   constexpr std::ptrdiff_t of_family = 1, of_cv = 4;

@@ -38,9 +38,9 @@ void add_joint_errors(EstimatorSummary const& estimator, Json& json) {
   json["arm"] = {{"joint_relerr", numbers_json(estimator.joint_relerr)},
                  {"joint_relerr_all_rows", numbers_json(estimator.joint_relerr_all_rows)},
                  {"relerr_all_rows", number(estimator.relerr_all_rows)},
-                 {"validation_joint_relerr", numbers_json(estimator.unseen_joint_relerr)},
-                 {"validation_joint_relerr_all_rows", numbers_json(estimator.unseen_joint_relerr_all_rows)},
-                 {"validation_relerr_all_rows", number(estimator.unseen_relerr_all_rows)}};
+                 {"validation_joint_relerr", numbers_json(estimator.validation_joint_relerr)},
+                 {"validation_joint_relerr_all_rows", numbers_json(estimator.validation_joint_relerr_all_rows)},
+                 {"validation_relerr_all_rows", number(estimator.validation_relerr_all_rows)}};
 }
 
 Json arm_json(ArmSummary const& arm) {

@@ -82,10 +82,10 @@ EstimatorSummary read_estimator(Source const& reader, std::string const& name, s
   };
   summary.joint_relerr = of_joints("joint_relerr");
   summary.joint_relerr_all_rows = of_joints("joint_relerr_all_rows");
-  summary.unseen_joint_relerr = of_joints("validation_joint_relerr");
-  summary.unseen_joint_relerr_all_rows = of_joints("validation_joint_relerr_all_rows");
+  summary.validation_joint_relerr = of_joints("validation_joint_relerr");
+  summary.validation_joint_relerr_all_rows = of_joints("validation_joint_relerr_all_rows");
   summary.relerr_all_rows = number_or_nan(reader, group, "relerr_all_rows");
-  summary.unseen_relerr_all_rows = number_or_nan(reader, group, "validation_relerr_all_rows");
+  summary.validation_relerr_all_rows = number_or_nan(reader, group, "validation_relerr_all_rows");
   return summary;
 }
 

@@ -36,8 +36,8 @@ struct EstimatorSummary {
   std::map<std::string, std::int64_t> stop_reasons;  // how many runs ended for which reason
   std::int64_t evaluations = 0;
   // of an arm, of the median run: one a joint; validation ones are empty without validation data
-  std::vector<double> joint_relerr, joint_relerr_all_rows, unseen_joint_relerr, unseen_joint_relerr_all_rows;
-  double relerr_all_rows = 0.0, unseen_relerr_all_rows = 0.0;
+  std::vector<double> joint_relerr, joint_relerr_all_rows, validation_joint_relerr, validation_joint_relerr_all_rows;
+  double relerr_all_rows = 0.0, validation_relerr_all_rows = 0.0;
 };
 
 // what only the result of an arm has

@@ -18,7 +18,7 @@ namespace {
 struct Column {
   std::string title;
   std::function<std::string(std::size_t)> parameter;
-  std::string mse{}, train{}, unseen{}, gap{}, fitness{};
+  std::string mse{}, train{}, validation{}, gap{}, fitness{};
 };
 
 std::string percent(double share) { return std::isnan(share) ? "" : fmt::format("{:.3g}", 100.0 * share); }
@@ -146,7 +146,7 @@ std::string block_text(ResultSummary const& summary, std::vector<Column> const& 
   text += block.line("MSE", squared_unit(summary), cells([](Column const& c) { return c.mse; }));
   if (summary.has_validation) {
     text += block.line("error, train", "%", cells([](Column const& c) { return c.train; }));
-    text += block.line("error, validation", "%", cells([](Column const& c) { return c.unseen; }));
+    text += block.line("error, validation", "%", cells([](Column const& c) { return c.validation; }));
   }
   if (has(&Column::gap)) text += block.line(gap_title(summary), "", cells([](Column const& c) { return c.gap; }));
   if (has(&Column::fitness)) text += block.line("fitness", "", cells([](Column const& c) { return c.fitness; }));

@@ -41,7 +41,7 @@ bool is_way_of_a_hold(std::vector<double> const& x, std::size_t first, std::size
   double const way = std::fabs(x[end] - x[first - 1]);
   // either is known to a step
   return way - encoder_step > levels::way_after_hold * (around + encoder_step) &&
-         way <= levels::faster_unseen * static_cast<double>(end - first + 1) * fastest;
+         way <= levels::faster_unnoticed * static_cast<double>(end - first + 1) * fastest;
 }
 
 // rows that repeat and are made up for by the row after them

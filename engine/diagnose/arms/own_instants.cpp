@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/base/random_stream.hpp"
-#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/fit/statistics/replicate_null.hpp"
 
 namespace torquescope {
 namespace {

@@ -8,7 +8,7 @@
 #include "engine/fit/statistics/bounded_projection.hpp"
 #include "engine/fit/statistics/inverse_root.hpp"
 #include "engine/fit/statistics/left_out_gains.hpp"
-#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/fit/statistics/replicate_null.hpp"
 
 namespace torquescope {
 namespace {
@@ -161,8 +161,8 @@ std::vector<ScannedLaw> scan_whole_arm_laws(WholeArmRows const& rows, Eigen::Mat
     if (gains.size() == 0) return;
     std::span<double const> const chance(gains.data() + 1, static_cast<std::size_t>(n_replicates));
     one.gain = gains[0];
-    one.z = twin_z(gains[0], chance);
-    z[i] = standardised_twins(chance);
+    one.z = replicate_z(gains[0], chance);
+    z[i] = standardised_replicates(chance);
   });
   std::vector<double> largest(static_cast<std::size_t>(n_replicates), -std::numeric_limits<double>::infinity());
   for (auto const& of_one : z)

@@ -24,7 +24,7 @@ class WholeArmWork {
       : question_(question),
         noise_(question.noise),
         rows_(question.train),
-        unseen_(question.unseen),
+        validation_(question.validation),
         basis_(orthonormal_basis(rows_.model)),
         residual_(left_by(basis_)) {}
 
@@ -116,7 +116,7 @@ class WholeArmWork {
       found.explained_at[j] = explained_share(before[j], after[j], noise[j]);
     found.before = std::sqrt(plain_before / plain_torque);
     found.after = std::sqrt(plain_after / plain_torque);
-    look_at_unseen(found);
+    look_at_validation(found);
     Blocks const which = found.time ? Blocks::where_it_acts : Blocks::alike;
     found.reason = reason_of(found, gain_of(stretches, left, one.left, which), least_left_share(before, after));
     return one;
@@ -128,7 +128,7 @@ class WholeArmWork {
     if (held_out.change != HeldOutChange::lower) return WholeArmReason::not_held_out;
     if (left_share > 1.0 - question_.numbers.least_fall) return WholeArmReason::too_small;
     if (found.explained <= question_.numbers.most_of_it) return WholeArmReason::most_is_left;
-    if (found.unseen_after > found.unseen_before) return WholeArmReason::unseen;
+    if (found.validation_after > found.validation_before) return WholeArmReason::validation;
     return WholeArmReason::accepted;
   }
 
@@ -156,50 +156,51 @@ class WholeArmWork {
     return torque;
   }
 
-  // what unseen recordings leave, of all laws beside the model as fitted with them; the last law is yet to be placed
-  Eigen::VectorXd unseen_left(std::size_t which, std::vector<FoundWholeArmLaw> const& laws) const {
+  // what validation recordings leave, of all laws beside the model as fitted with them; the last law is yet to be
+  // placed
+  Eigen::VectorXd validation_left(std::size_t which, std::vector<FoundWholeArmLaw> const& laws) const {
     Eigen::VectorXd torque = rows_.torque;
     for (auto const& law : laws) torque -= trained_torque(law);
     Eigen::VectorXd const parameters = solve_scaled(rows_.model, torque);
-    WholeArmRows const& rows = unseen_[which];
+    WholeArmRows const& rows = validation_[which];
     Eigen::VectorXd left = rows.torque - rows.model * parameters;
     for (auto const& law : laws)
-      if (which < law.unseen_times.size()) left -= placed_torque(rows, law, which);
+      if (which < law.validation_times.size()) left -= placed_torque(rows, law, which);
     return left;
   }
 
   static Eigen::VectorXd placed_torque(WholeArmRows const& rows, FoundWholeArmLaw const& law, std::size_t which) {
-    auto const& time = law.unseen_times[which];
+    auto const& time = law.validation_times[which];
     Eigen::VectorXd torque = law_torque(rows, law);
     for (Eigen::Index i = 0; i < torque.size(); ++i)
       if (!time || !time->holds(which, rows.rows[static_cast<std::size_t>(i)].time_s)) torque[i] = 0.0;
     return torque;
   }
 
-  void look_at_unseen(FoundWholeArmLaw& found) const {
+  void look_at_validation(FoundWholeArmLaw& found) const {
     double before = 0.0, after = 0.0, torque = 0.0;
     std::vector<FoundWholeArmLaw> with = accepted_;
     with.push_back(found);
-    for (std::size_t k = 0; k < unseen_.size(); ++k) {
-      found.unseen_times.emplace_back();
-      if (unseen_[k].stretches.empty()) continue;
-      RowBlock const all{0, unseen_[k].torque.size()};
-      Eigen::VectorXd left = unseen_left(k, with), acting = law_torque(unseen_[k], found);
-      found.unseen_times.back() = ActingTime{k};
+    for (std::size_t k = 0; k < validation_.size(); ++k) {
+      found.validation_times.emplace_back();
+      if (validation_[k].stretches.empty()) continue;
+      RowBlock const all{0, validation_[k].torque.size()};
+      Eigen::VectorXd left = validation_left(k, with), acting = law_torque(validation_[k], found);
+      found.validation_times.back() = ActingTime{k};
       if (found.time) {
-        auto own = own_instants(unseen_[k], k, left, acting, question_.numbers.alpha,
+        auto own = own_instants(validation_[k], k, left, acting, question_.numbers.alpha,
                                 {question_.seed, static_cast<std::uint32_t>(k), question_.threads});
-        found.unseen_times.back() = own.time;
+        found.validation_times.back() = own.time;
         acting = std::move(own.torque);
       }
       left -= acting;
-      before += plain_energy(unseen_[k], noise_, unseen_left(k, accepted_), all);
-      after += plain_energy(unseen_[k], noise_, left, all);
-      torque += unseen_[k].torque_energy;
+      before += plain_energy(validation_[k], noise_, validation_left(k, accepted_), all);
+      after += plain_energy(validation_[k], noise_, left, all);
+      torque += validation_[k].torque_energy;
     }
     if (!(torque > 0.0)) return;
-    found.unseen_before = std::sqrt(before / torque);
-    found.unseen_after = std::sqrt(after / torque);
+    found.validation_before = std::sqrt(before / torque);
+    found.validation_after = std::sqrt(after / torque);
   }
 
   std::vector<Effect const*> alike_to(Judged const& best, std::vector<ScannedLaw> const& scanned,
@@ -222,7 +223,7 @@ class WholeArmWork {
   WholeArmQuestion const& question_;
   Eigen::VectorXd const& noise_;  // [N]
   WholeArmRows const& rows_;
-  std::span<WholeArmRows const> unseen_;
+  std::span<WholeArmRows const> validation_;
   Eigen::MatrixXd basis_{};     // of the model and of what was accepted
   Eigen::VectorXd residual_{};  // what it leaves
   std::vector<FoundWholeArmLaw> accepted_{};
@@ -242,8 +243,8 @@ std::vector<Eigen::VectorXd> whole_arm_torques(std::vector<FoundWholeArmLaw> con
     auto const law = std::find_if(of.laws.begin(), of.laws.end(), [&](WholeArmLaw const& one) {
       return one.effect == found.law.effect && one.joint == found.law.joint;
     });
-    auto const& time = of.is_unseen ? found.unseen_times[of.which] : found.time;
-    if (of.is_unseen && !time) continue;
+    auto const& time = of.is_validation ? found.validation_times[of.which] : found.time;
+    if (of.is_validation && !time) continue;
     for (std::size_t j = 0; j < torques.size(); ++j) {
       Eigen::VectorXd torque = law->columns[j] * found.values;
       for (Eigen::Index i = 0; i < torque.size() && time; ++i)

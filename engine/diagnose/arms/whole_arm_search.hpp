@@ -7,8 +7,8 @@
 // Mismatch   energy left on rows left out, less that of noise (whole_arm_energies.hpp). Of a law with instants: in its
 //            recording
 // Alike      other laws beyond chance that leave not clearly more on rows left out
-// Unseen     a law with instants has instants of its own in each unseen recording, where they explain more than those
-//            of replicates (own_instants.hpp); else it does not act there
+// Validation a law with instants has instants of its own in each validation recording, where they explain more than
+//            those of replicates (own_instants.hpp); else it does not act there
 // Threads    spreads the scan over `threads`; same bits for any number
 
 #include <cstdint>
@@ -28,7 +28,7 @@ enum class WholeArmReason {
   not_held_out,   // the error on rows left out is not clearly lower
   too_small,      // it falls by less than least_fall at every joint
   most_is_left,   // of the mismatch
-  unseen          // unseen recordings that it acts in are predicted worse
+  validation      // validation recordings that it acts in are predicted worse
 };
 
 struct FoundWholeArmLaw {
@@ -40,17 +40,18 @@ struct FoundWholeArmLaw {
   double explained = 0.0;            // share of the mismatch, on rows left out
   Eigen::VectorXd explained_at{};    // [N] the same of each joint
   double before = 0.0, after = 0.0;  // relerr over all joints on rows left out, of the recordings it may act in
-  double unseen_before = 0.0, unseen_after = 0.0;         // the same of unseen recordings it acts in; 0: none
-  std::vector<std::optional<ActingTime>> unseen_times{};  // of each unseen recording; none: it does not act there
+  double validation_before = 0.0, validation_after = 0.0;  // the same of validation recordings it acts in; 0: none
+  std::vector<std::optional<ActingTime>>
+      validation_times{};  // of each validation recording; none: it does not act there
   WholeArmReason reason = WholeArmReason::chance;
   std::vector<Effect const*> alike{};
 };
 
 struct WholeArmQuestion {
   WholeArmRows const& train;
-  std::span<WholeArmRows const> unseen;  // of each recording
-  Eigen::VectorXd const& noise;          // [N]
-  DecisionNumbers numbers{};             // alpha: of the whole arm
+  std::span<WholeArmRows const> validation;  // of each recording
+  Eigen::VectorXd const& noise;              // [N]
+  DecisionNumbers numbers{};                 // alpha: of the whole arm
   std::uint64_t seed = 0;
   int threads = 1;
 };
@@ -63,12 +64,12 @@ struct WholeArmAnswer {
 WholeArmAnswer search_whole_arm(WholeArmQuestion const& question);
 
 // Of accepted laws, what each joint needs in addition in one recording, n samples at the full rate. laws: of that
-// recording; is_unseen: `which` counts those; time_s: n, on the recording's own clock
+// recording; is_validation: `which` counts those; time_s: n, on the recording's own clock
 struct OneRecording {
   std::vector<WholeArmLaw> const& laws;
   Eigen::VectorXd const& time_s;
   std::size_t which = 0;
-  bool is_unseen = false;
+  bool is_validation = false;
 };
 std::vector<Eigen::VectorXd> whole_arm_torques(std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of);
 

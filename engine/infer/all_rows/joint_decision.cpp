@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/effects/carry_over.hpp"
-#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/fit/statistics/replicate_null.hpp"
 #include "engine/infer/all_rows/decision_verdict.hpp"
 #include "engine/infer/all_rows/delay_decision.hpp"
 #include "engine/infer/all_rows/law_trial.hpp"

@@ -5,7 +5,7 @@
 // Score      D on rows that no fit has seen
 // Chance     the largest gain over the catalogue in replicates of the model, each with its own sticking: p <= alpha
 // Size       a torque of at least delta of the torque's rms, and no parameter beyond what it can be
-// Unseen     other recordings are predicted better over all rows; where there are none, ten folds of training
+// Validation other recordings are predicted better over all rows; where there are none, ten folds of training
 // Ties       laws whose D lies within chance of a law's, or whose judged error is not higher by least_fall, are a class
 //            with it
 // Clock      laws of an instant or a clock are asked after those of the motion, on short folds

@@ -6,7 +6,7 @@
 #include "engine/base/random_stream.hpp"
 #include "engine/fit/optim/pattern_search.hpp"
 #include "engine/fit/statistics/bounded_projection.hpp"
-#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/fit/statistics/replicate_null.hpp"
 #include "engine/infer/all_rows/shape_grid.hpp"
 
 namespace torquescope {

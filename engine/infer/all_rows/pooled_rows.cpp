@@ -130,13 +130,13 @@ PooledErrors pooled_errors(std::span<PooledRows const* const> joints, std::vecto
   for (std::size_t j = 0; j < joints.size(); ++j) {
     PooledRows const& joint = *joints[j];
     auto const at = static_cast<Eigen::Index>(j);
-    double unseen = 0.0;
-    for (auto const& strip : joint.validation) unseen += left_of(strip, joint.training, shared);
+    double validation = 0.0;
+    for (auto const& strip : joint.validation) validation += left_of(strip, joint.training, shared);
     ModelErrors own{std::sqrt(left_of(joint.training, joint.training, shared) / joint.training_energy),
                     std::sqrt(held_out[at] / joint.training_energy)};
-    if (!joint.validation.empty()) own.validation = std::sqrt(unseen / joint.validation_energy);
+    if (!joint.validation.empty()) own.validation = std::sqrt(validation / joint.validation_energy);
     errors.of_joints.push_back(own);
-    errors.judged += (joint.validation.empty() ? held_out[at] : unseen) / variances[j];
+    errors.judged += (joint.validation.empty() ? held_out[at] : validation) / variances[j];
   }
   return errors;
 }

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "engine/base/parallel.hpp"
-#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/fit/statistics/replicate_null.hpp"
 #include "engine/infer/all_rows/delay_decision.hpp"
 #include "engine/infer/all_rows/row_noise.hpp"
 #include "engine/infer/all_rows/smooth_correction.hpp"
-#include "engine/simulate/twin_lanes.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 
 namespace torquescope {
 namespace {
@@ -46,7 +46,7 @@ class Replicates {
 
   ReplicateGains run(std::vector<LawQuestion>& questions) && {
     auto const wanted = static_cast<std::size_t>(q_.numbers.replicates);
-    for (std::size_t first = 0; first < draws_for_each * wanted && count() < wanted; first += twin_lanes) {
+    for (std::size_t first = 0; first < draws_for_each * wanted && count() < wanted; first += replicate_lanes) {
       tell(wanted);
       if (take(within(drawn(first), first), questions)) break;
     }
@@ -88,13 +88,13 @@ class Replicates {
   }
 
   std::vector<FittedStrips> drawn(std::size_t first) const {
-    std::vector<std::vector<Strip>> strips(twin_lanes);
+    std::vector<std::vector<Strip>> strips(replicate_lanes);
     for (auto const& maker : makers_) {
-      std::vector<Strip> made = maker.strips(first, twin_lanes);
-      for (std::size_t t = 0; t < twin_lanes; ++t) strips[t].push_back(std::move(made[t]));
+      std::vector<Strip> made = maker.strips(first, replicate_lanes);
+      for (std::size_t t = 0; t < replicate_lanes; ++t) strips[t].push_back(std::move(made[t]));
     }
-    std::vector<std::unique_ptr<FittedStrips>> each(twin_lanes);
-    parallel_for(twin_lanes, q_.threads, [&](std::size_t t, int) {
+    std::vector<std::unique_ptr<FittedStrips>> each(replicate_lanes);
+    parallel_for(replicate_lanes, q_.threads, [&](std::size_t t, int) {
       each[t] = std::make_unique<FittedStrips>(*task_.model.model, share(std::move(strips[t])),
                                                DelayChoice{DelaySearch::everywhere, q_.numbers.longest_delay_s});
     });
@@ -127,7 +127,7 @@ class Replicates {
     if (beyond_.size() > wanted) beyond_.resize(wanted);
     std::map<std::size_t, std::vector<std::size_t>> places;  // by the first replicate of a group
     for (std::size_t i = 0; i < beyond_.size(); ++i)
-      places[beyond_[i].replicate / twin_lanes * twin_lanes].push_back(i);
+      places[beyond_[i].replicate / replicate_lanes * replicate_lanes].push_back(i);
     std::vector<std::optional<FittedStrips>> made(beyond_.size());
     for (auto const& [first, of_group] : places) {
       std::vector<FittedStrips> group = drawn(first);

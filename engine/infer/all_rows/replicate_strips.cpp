@@ -72,7 +72,7 @@ Eigen::VectorXd possible(Eigen::VectorXd parameters, JointModel const& model, St
   return parameters;
 }
 
-TrackedJoint tracked(TwinJoint const& joint) {
+TrackedJoint tracked(ReplicateJoint const& joint) {
   return {joint.lanes.inertia,
           joint.lanes.viscous,
           joint.coulomb_forward + joint.offset,
@@ -82,7 +82,7 @@ TrackedJoint tracked(TwinJoint const& joint) {
 }
 
 // one of a group as if it had been recorded; takes its samples, which are many, out of the group
-Recording taken_out(TwinGroup& group, std::size_t lane, double rate_hz) {
+Recording taken_out(ReplicateGroup& group, std::size_t lane, double rate_hz) {
   Recording recording;
   recording.name = "a replicate";
   recording.rate_hz = rate_hz;
@@ -110,16 +110,16 @@ ReplicateMaker::ReplicateMaker(ReplicateSetting const& setting, std::size_t reco
   JointModel model = on.model();
   model.load_as_in(alone);
   try {
-    TwinJoint const joint = model.twin_joint(without_given(parameters, model));
+    ReplicateJoint const joint = model.replicate_joint(without_given(parameters, model));
     auto const led = [&](RecordedLoop loop, ReplicateSource source) {
       loop.loop.torque_noise = loop.loop.slow_torque_noise = {};
       loop.loop.sticking = {setting.sticking.least_creep, setting.sticking.most_creep, setting.sticking.most_length};
-      CleanTwin twin(joint, loop.loop, loop.track, step_s);
-      TwinGroup group;
-      twin.simulate({setting.seed, static_cast<std::uint32_t>(recording), sets_before + setting.step}, 0, group);
+      ReplicateSimulator replicate(joint, loop.loop, loop.track, step_s);
+      ReplicateGroup group;
+      replicate.simulate({setting.seed, static_cast<std::uint32_t>(recording), sets_before + setting.step}, 0, group);
       if (std::find(group.ran_away.begin(), group.ran_away.end(), true) != group.ran_away.end()) return false;
       loop_ = std::move(loop);
-      twin_.emplace(std::move(twin));
+      replicate_.emplace(std::move(replicate));
       source_ = source;
       return true;
     };
@@ -133,27 +133,27 @@ ReplicateMaker::ReplicateMaker(ReplicateSetting const& setting, std::size_t reco
 }
 
 std::vector<Strip> ReplicateMaker::strips(std::size_t first, std::size_t count) const {
-  if (twin_) return simulated(first, count);
+  if (replicate_) return simulated(first, count);
   std::vector<Strip> all;
   for (std::size_t i = first; i < first + count; ++i) all.push_back(on_measured_motion(i));
   return all;
 }
 
 std::vector<Strip> ReplicateMaker::simulated(std::size_t first, std::size_t count) const {
-  TwinAddress const address{setting_.seed, static_cast<std::uint32_t>(place_), sets_before + setting_.step};
-  std::size_t const groups = (count + twin_lanes - 1) / twin_lanes;
-  std::vector<TwinGroup> made(groups);
+  ReplicateAddress const address{setting_.seed, static_cast<std::uint32_t>(place_), sets_before + setting_.step};
+  std::size_t const groups = (count + replicate_lanes - 1) / replicate_lanes;
+  std::vector<ReplicateGroup> made(groups);
   parallel_for(groups, setting_.threads, [&](std::size_t g, int) {
-    twin_->simulate(address, static_cast<std::uint32_t>(first / twin_lanes + g), made[g]);
+    replicate_->simulate(address, static_cast<std::uint32_t>(first / replicate_lanes + g), made[g]);
   });
   std::vector<Strip> all(count);
   parallel_for(count, setting_.threads, [&](std::size_t i, int) {
-    TwinGroup& group = made[i / twin_lanes];
-    if (group.ran_away[i % twin_lanes]) {
+    ReplicateGroup& group = made[i / replicate_lanes];
+    if (group.ran_away[i % replicate_lanes]) {
       all[i] = on_measured_motion(first + i);
       return;
     }
-    Recording recording = taken_out(group, i % twin_lanes, recording_->rate_hz);
+    Recording recording = taken_out(group, i % replicate_lanes, recording_->rate_hz);
     recording.rows.encoder_step = recording_->rows.encoder_step;
     if (given_.size() > 0) recording.torque += torque_to_hold(given_);
     all[i] = strip_of(recording, strip_->filters, strip_->resolution);

@@ -43,7 +43,7 @@ class ReplicateMaker {
 
   ReplicateSource source() const { return source_; }
   RecordedLoop const& loop() const { return loop_; }
-  // replicates [first, first + count); first a multiple of twin_lanes
+  // replicates [first, first + count); first a multiple of replicate_lanes
   std::vector<Strip> strips(std::size_t first, std::size_t count) const;
 
  private:
@@ -59,7 +59,7 @@ class ReplicateMaker {
   ChosenTreatment const* chosen_;
   ReplicateSource source_ = ReplicateSource::measured_motion;
   RecordedLoop loop_{};
-  std::optional<CleanTwin> twin_{};
+  std::optional<ReplicateSimulator> replicate_{};
 };
 
 }  // namespace torquescope

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/infer/all_rows/replicate_strips.hpp"
-#include "engine/simulate/twin_lanes.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 
 namespace torquescope {
 namespace {
@@ -49,10 +49,10 @@ std::vector<Strip> weighed(DecisionQuestion const& question, std::span<Recording
   ReplicateSetting const setting{
       recordings,    question.filter, plausible_sticking(own.on(), own.chosen(), question.numbers.sticking_odds),
       question.seed, step_of_weights, question.threads};
-  std::vector<std::vector<Strip>> drawn(twin_lanes);
+  std::vector<std::vector<Strip>> drawn(replicate_lanes);
   for (std::size_t i = 0; i < strips.size(); ++i) {
-    auto made = ReplicateMaker(setting, i, own.on(), own.chosen()).strips(0, twin_lanes);
-    for (std::size_t t = 0; t < twin_lanes; ++t) drawn[t].push_back(std::move(made[t]));
+    auto made = ReplicateMaker(setting, i, own.on(), own.chosen()).strips(0, replicate_lanes);
+    for (std::size_t t = 0; t < replicate_lanes; ++t) drawn[t].push_back(std::move(made[t]));
   }
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(own.on().rows());
   double count = 0.0;

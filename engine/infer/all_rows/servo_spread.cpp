@@ -9,8 +9,8 @@ namespace {
 
 // the model itself, then replicates whose encoders lie elsewhere and which begin elsewhere within a step
 std::vector<RolloutTrial> with_replicates(RolloutTrial const& trial, double encoder_step, RandomKey const& key) {
-  std::vector<RolloutTrial> trials(twin_lanes, trial);
-  for (std::uint32_t lane = 1; lane < twin_lanes; ++lane) {
+  std::vector<RolloutTrial> trials(replicate_lanes, trial);
+  for (std::uint32_t lane = 1; lane < replicate_lanes; ++lane) {
     RandomStream random(key, 0, lane);
     trials[lane].encoder_step = encoder_step;
     trials[lane].encoder_phase = encoder_step * (random.uniform() - 0.5);

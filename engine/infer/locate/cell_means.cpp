@@ -12,14 +12,14 @@ Eigen::MatrixXd read(CellSums const& sums, CellReading reading) {
                                         : Eigen::MatrixXd(sums.forward - sums.backward);
 }
 
-Eigen::MatrixXd energies_beyond_twins(Eigen::MatrixXd const& sums, Eigen::VectorXd const& rows) {
-  Eigen::Index const n_twins = sums.cols() - 1;
-  double const m = static_cast<double>(n_twins);
-  Eigen::VectorXd const twin_mean = sums.rightCols(n_twins).rowwise().mean();
+Eigen::MatrixXd energies_beyond_replicates(Eigen::MatrixXd const& sums, Eigen::VectorXd const& rows) {
+  Eigen::Index const n_replicates = sums.cols() - 1;
+  double const m = static_cast<double>(n_replicates);
+  Eigen::VectorXd const replicate_mean = sums.rightCols(n_replicates).rowwise().mean();
   // a cell without rows has no sum either
   Eigen::ArrayXd const per_row = rows.array().max(1.0).inverse();
-  Eigen::MatrixXd energies = (sums.colwise() - twin_mean).array().square().colwise() * per_row;
-  energies.rightCols(n_twins) *= (m + 1.0) / (m - 1.0);
+  Eigen::MatrixXd energies = (sums.colwise() - replicate_mean).array().square().colwise() * per_row;
+  energies.rightCols(n_replicates) *= (m + 1.0) / (m - 1.0);
   return energies;
 }
 
@@ -29,7 +29,7 @@ CellSums sum_in_cells(MismatchRows const& rows, std::span<int const> cell_of, in
                       int threads) {
   TORQUESCOPE_EXPECT(static_cast<Eigen::Index>(cell_of.size()) == rows.size());
   Eigen::VectorXd const& sign = reading == CellReading::along_torque ? rows.model_torque : rows.dq;
-  Eigen::Index const columns = rows.n_twins() + 1;
+  Eigen::Index const columns = rows.n_replicates() + 1;
   // one list of places for both sides: backward after forward
   std::vector<Eigen::Index> place(cell_of.size());
   Eigen::VectorXd counts = Eigen::VectorXd::Zero(2 * n_cells), energy = counts;
@@ -44,7 +44,7 @@ CellSums sum_in_cells(MismatchRows const& rows, std::span<int const> cell_of, in
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(2 * n_cells, columns);
   parallel_for(static_cast<std::size_t>(columns), threads, [&](std::size_t task, int) {
     auto const column = static_cast<Eigen::Index>(task);
-    double const* const residual = column == 0 ? rows.residual.data() : rows.twins.col(column - 1).data();
+    double const* const residual = column == 0 ? rows.residual.data() : rows.replicates.col(column - 1).data();
     auto sum = sums.col(column);
     for (std::size_t row = 0; row < place.size(); ++row)
       if (place[row] >= 0) sum[place[row]] += residual[row];
@@ -71,12 +71,12 @@ Eigen::MatrixXd cell_means(CellSums const& sums, CellReading reading) {
 }
 
 Eigen::MatrixXd cell_energies(CellSums const& sums, CellReading reading) {
-  return energies_beyond_twins(read(sums, reading), sums.rows());
+  return energies_beyond_replicates(read(sums, reading), sums.rows());
 }
 
 Eigen::MatrixXd two_sided_energies(CellSums const& sums) {
-  return energies_beyond_twins(sums.forward, sums.forward_rows) +
-         energies_beyond_twins(sums.backward, sums.backward_rows);
+  return energies_beyond_replicates(sums.forward, sums.forward_rows) +
+         energies_beyond_replicates(sums.backward, sums.backward_rows);
 }
 
 }  // namespace torquescope

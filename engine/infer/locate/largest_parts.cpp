@@ -21,8 +21,8 @@ struct ToldPart {
 };
 
 // A spectrum has one sign, so that its regions grow together over most of it: told is the stretch of one that tells
-// most. Any law of the motion leaves most where the torque has most, and noise is everywhere: what is beyond the twins
-// must surprise for the stretch's share of the torque and for its width
+// most. Any law of the motion leaves most where the torque has most, and noise is everywhere: what is beyond the
+// replicates must surprise for the stretch's share of the torque and for its width
 ToldPart told_stretch(MapAxis const& axis, MismatchRegion const& region) {
   std::vector<MapCell> cells;
   double energy = 0.0, beyond = 0.0;
@@ -30,7 +30,7 @@ ToldPart told_stretch(MapAxis const& axis, MismatchRegion const& region) {
     return cell.samples > 0 ? amplitude * amplitude * static_cast<double>(cell.samples) : 0.0;
   };
   auto const beyond_of = [&](MapCell const& cell) {
-    return std::max(0.0, energy_of(cell, cell.mean_residual) - energy_of(cell, cell.twin_mean));
+    return std::max(0.0, energy_of(cell, cell.mean_residual) - energy_of(cell, cell.replicate_mean));
   };
   for (MapCell const& cell : axis.cells)
     if (cell.from >= region.where.from && cell.to <= region.where.to) {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/base/contract.hpp"
-#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/fit/statistics/replicate_null.hpp"
 #include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {
@@ -31,10 +31,10 @@ double upper_quantile(std::vector<double> values) {
 
 Thresholds thresholds_of(std::span<CellScores const> readings, Tail tail) {
   std::vector<double> largest, single;
-  for (Eigen::Index t = 0; t < readings.front().twins.cols(); ++t) {
+  for (Eigen::Index t = 0; t < readings.front().replicates.cols(); ++t) {
     double most = -std::numeric_limits<double>::infinity();
     for (CellScores const& scores : readings)
-      for (double z : scores.twins.col(t)) {
+      for (double z : scores.replicates.col(t)) {
         if (std::isnan(z)) continue;
         single.push_back(extremity(z, tail));
         most = std::max(most, single.back());
@@ -100,16 +100,17 @@ std::vector<CellRun> merged(std::vector<CellRun> runs) {
 }  // namespace
 
 CellScores score_cells(Eigen::MatrixXd const& values) {
-  Eigen::Index const n_twins = values.cols() - 1;
+  Eigen::Index const n_replicates = values.cols() - 1;
   CellScores scores{Eigen::VectorXd::Constant(values.rows(), unknown),
-                    Eigen::MatrixXd::Constant(values.rows(), n_twins, unknown)};
-  std::vector<double> twins(static_cast<std::size_t>(n_twins));
+                    Eigen::MatrixXd::Constant(values.rows(), n_replicates, unknown)};
+  std::vector<double> replicates(static_cast<std::size_t>(n_replicates));
   for (Eigen::Index cell = 0; cell < values.rows(); ++cell) {
     if (std::isnan(values(cell, 0))) continue;
-    for (std::size_t t = 0; t < twins.size(); ++t) twins[t] = values(cell, static_cast<Eigen::Index>(t) + 1);
-    scores.recording[cell] = twin_z(values(cell, 0), twins);
-    auto const among_others = standardised_twins(twins);
-    for (std::size_t t = 0; t < twins.size(); ++t) scores.twins(cell, static_cast<Eigen::Index>(t)) = among_others[t];
+    for (std::size_t t = 0; t < replicates.size(); ++t) replicates[t] = values(cell, static_cast<Eigen::Index>(t) + 1);
+    scores.recording[cell] = replicate_z(values(cell, 0), replicates);
+    auto const among_others = standardised_replicates(replicates);
+    for (std::size_t t = 0; t < replicates.size(); ++t)
+      scores.replicates(cell, static_cast<Eigen::Index>(t)) = among_others[t];
   }
   return scores;
 }

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/base/contract.hpp"
-#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/fit/statistics/replicate_null.hpp"
 #include "engine/infer/locate/cell_means.hpp"
 #include "engine/infer/locate/map_axes.hpp"
 #include "engine/infer/locate/map_regions.hpp"
@@ -19,15 +19,15 @@ namespace {
 // what depends on these comes even and odd in the direction of motion: drift of a sensor, of friction
 bool read_both_ways(SignatureAxis axis) { return axis == SignatureAxis::position || axis == SignatureAxis::time; }
 
-// the recording's energy beyond the twins' average; columns: recording, twins
+// the recording's energy beyond the replicates' average; columns: recording, replicates
 double excess(Eigen::RowVectorXd const& energies) { return energies[0] - energies.tail(energies.size() - 1).mean(); }
 
 double share_of(double part, double whole) { return whole > 0.0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0; }
 
 void set_share(MapAxis& axis, Eigen::RowVectorXd const& energies, double residual_energy) {
-  std::vector<double> const twins(energies.data() + 1, energies.data() + energies.size());
+  std::vector<double> const replicates(energies.data() + 1, energies.data() + energies.size());
   axis.energy_share = share_of(excess(energies), residual_energy);
-  axis.p = empirical_p(energies[0], twins);
+  axis.p = empirical_p(energies[0], replicates);
 }
 
 // shown: cells x (1 + M)
@@ -37,9 +37,9 @@ std::vector<MapCell> make_cells(std::span<double const> edges, Eigen::Ref<Eigen:
   Eigen::Index const m = shown.cols() - 1;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     auto const cell = static_cast<Eigen::Index>(i);
-    auto const twins = shown.row(cell).tail(m);
-    double const mean = twins.mean();
-    double const variance = (twins.array() - mean).square().sum() / static_cast<double>(m - 1);
+    auto const replicates = shown.row(cell).tail(m);
+    double const mean = replicates.mean();
+    double const variance = (replicates.array() - mean).square().sum() / static_cast<double>(m - 1);
     cells[i] = {edges[i],
                 edges[i + 1],
                 static_cast<Eigen::Index>(samples[cell]),
@@ -121,12 +121,12 @@ CellScores score_amplitudes(Eigen::MatrixXd amplitudes) {
   return score_cells(amplitudes);
 }
 
-// energies: windows x (1 + M); result: of each column the largest excess over the other twins' mean
+// energies: windows x (1 + M); result: of each column the largest excess over the other replicates' mean
 Eigen::RowVectorXd strongest_window(Eigen::MatrixXd const& energies) {
-  Eigen::Index const n_twins = energies.cols() - 1;
-  double const m = static_cast<double>(n_twins);
-  Eigen::MatrixXd beyond = energies.colwise() - energies.rightCols(n_twins).rowwise().mean();
-  beyond.rightCols(n_twins) *= m / (m - 1.0);  // a twin against the others
+  Eigen::Index const n_replicates = energies.cols() - 1;
+  double const m = static_cast<double>(n_replicates);
+  Eigen::MatrixXd beyond = energies.colwise() - energies.rightCols(n_replicates).rowwise().mean();
+  beyond.rightCols(n_replicates) *= m / (m - 1.0);  // a replicate against the others
   return beyond.colwise().maxCoeff();
 }
 
@@ -135,8 +135,8 @@ void set_torque_shares(std::vector<MapCell>& cells, MismatchRows const& rows, Wa
                        std::vector<WaveBand> const& bands) {
   MismatchRows alone;
   alone.residual = rows.torque.array() - rows.torque.mean();
-  alone.twin_mean = Eigen::VectorXd::Zero(rows.size());
-  alone.twins.resize(rows.size(), 0);
+  alone.replicate_mean = Eigen::VectorXd::Zero(rows.size());
+  alone.replicates.resize(rows.size(), 0);
   Eigen::VectorXd const energy = band_energies(alone, grid, bands, 1);
   double const whole = energy.sum();
   for (std::size_t i = 0; i < cells.size() && whole > 0.0; ++i)
@@ -185,7 +185,7 @@ void fill_after(MapAxis& axis, Eigen::MatrixXd const& shown, CellScores const& s
 }  // namespace
 
 std::vector<MapAxis> mismatch_map(MismatchRows const& rows, JointScales const& scales, int threads) {
-  TORQUESCOPE_EXPECT(rows.n_twins() >= 8 && rows.size() > 0);
+  TORQUESCOPE_EXPECT(rows.n_replicates() >= 8 && rows.size() > 0);
   std::vector<MapAxis> map;
   for (SignatureAxis axis : map_axes)
     map.push_back(is_spectrum(axis) ? spectrum_axis(axis, rows, scales, threads)
@@ -194,7 +194,7 @@ std::vector<MapAxis> mismatch_map(MismatchRows const& rows, JointScales const& s
 }
 
 void add_after(std::vector<MapAxis>& map, MismatchRows const& after, int threads) {
-  TORQUESCOPE_EXPECT(map.size() == map_axes.size() && after.n_twins() >= 8);
+  TORQUESCOPE_EXPECT(map.size() == map_axes.size() && after.n_replicates() >= 8);
   for (std::size_t i = 0; i < map.size(); ++i) {
     SignatureAxis const which = map_axes[i];
     auto const edges = edges_of(map[i]);

@@ -22,7 +22,7 @@ namespace torquescope {
 
 std::vector<MapAxis> mismatch_map(MismatchRows const& rows, JointScales const& scales, int threads);
 
-// fills after_z and after_residual; `after` may have other rows and another number of twins
+// fills after_z and after_residual; `after` may have other rows and another number of replicates
 void add_after(std::vector<MapAxis>& map, MismatchRows const& after, int threads = 1);
 
 }  // namespace torquescope

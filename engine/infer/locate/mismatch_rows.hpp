@@ -19,11 +19,11 @@ struct MismatchRows : MotionAxes {
   std::vector<Eigen::Index> kept_rows{};  // of each row: index among the kept samples
   Eigen::VectorXd torque{};               // of the recording, filtered
   Eigen::VectorXd residual{};             // of the recording
-  Eigen::VectorXd twin_mean{};            // mean residual of the replicates
-  Eigen::MatrixXd twins{};                // n x M: residual of each replicate
+  Eigen::VectorXd replicate_mean{};       // mean residual of the replicates
+  Eigen::MatrixXd replicates{};           // n x M: residual of each replicate
 
   Eigen::Index size() const { return residual.size(); }
-  Eigen::Index n_twins() const { return twins.cols(); }
+  Eigen::Index n_replicates() const { return replicates.cols(); }
 };
 
 }  // namespace torquescope

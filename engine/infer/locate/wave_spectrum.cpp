@@ -62,11 +62,11 @@ struct WaveWork {
   std::vector<Complex> points{}, sums{};
 };
 
-// column of x: the recording, then the twins
+// column of x: the recording, then the replicates
 Eigen::VectorXd deviation(MismatchRows const& rows, Eigen::Index column) {
-  if (column == 0) return rows.residual - rows.twin_mean;
-  double const m = static_cast<double>(rows.n_twins());
-  return std::sqrt((m + 1.0) / (m - 1.0)) * (rows.twins.col(column - 1) - rows.twin_mean);
+  if (column == 0) return rows.residual - rows.replicate_mean;
+  double const m = static_cast<double>(rows.n_replicates());
+  return std::sqrt((m + 1.0) / (m - 1.0)) * (rows.replicates.col(column - 1) - rows.replicate_mean);
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ WaveGrid position_waves(MismatchRows const& rows, double highest) {
 
 Eigen::MatrixXd band_energies(MismatchRows const& rows, WaveGrid const& grid, std::vector<WaveBand> const& bands,
                               int threads) {
-  Eigen::Index const columns = rows.n_twins() + 1;
+  Eigen::Index const columns = rows.n_replicates() + 1;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(bands.size()), columns);
   if (grid.last < grid.first) return result;
   TORQUESCOPE_EXPECT(static_cast<Eigen::Index>(grid.point.size()) == rows.size());

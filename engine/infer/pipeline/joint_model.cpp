@@ -72,9 +72,10 @@ std::vector<double> JointModel::effect_parameters(std::size_t effect, Eigen::Vec
   return all;
 }
 
-TwinJoint JointModel::twin_joint(Eigen::VectorXd const& parameters) const {
+ReplicateJoint JointModel::replicate_joint(Eigen::VectorXd const& parameters) const {
   TORQUESCOPE_EXPECT(static_cast<std::size_t>(parameters.size()) == size());
-  TwinJoint joint = make_twin_joint(*regressor_, parameters.head(static_cast<Eigen::Index>(regressor_->size())));
+  ReplicateJoint joint =
+      make_replicate_joint(*regressor_, parameters.head(static_cast<Eigen::Index>(regressor_->size())));
   LaneBaseline const beside{joint.lanes, reference_.gear_load, reference_.rate_hz, reference_.given};
   double const* value = parameters.data();
   for (auto const* term : regressor_->terms()) {

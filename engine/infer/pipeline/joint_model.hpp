@@ -17,7 +17,7 @@
 
 #include "engine/effects/fitted_baseline.hpp"
 #include "engine/effects/regressor.hpp"
-#include "engine/simulate/twin_joint.hpp"
+#include "engine/simulate/replicate_joint.hpp"
 
 namespace torquescope {
 
@@ -58,8 +58,8 @@ class JointModel {
   Eigen::MatrixXd columns(Motion const& motion, Motion const& drive) const;
   // linear parameters, then the shape: as Effect::runner takes them
   std::vector<double> effect_parameters(std::size_t effect, Eigen::VectorXd const& parameters) const;
-  // Errors: Error 65 as make_twin_joint
-  TwinJoint twin_joint(Eigen::VectorXd const& parameters) const;
+  // Errors: Error 65 as make_replicate_joint
+  ReplicateJoint replicate_joint(Eigen::VectorXd const& parameters) const;
 
  private:
   Regressor const* regressor_;

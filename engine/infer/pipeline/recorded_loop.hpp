@@ -10,14 +10,14 @@
 
 #include "engine/data/motion.hpp"
 #include "engine/data/recording.hpp"
-#include "engine/simulate/clean_twin.hpp"
+#include "engine/simulate/replicate_simulator.hpp"
 #include "engine/simulate/tracking_law.hpp"
 
 namespace torquescope {
 
 struct RecordedLoop {
-  TwinLoop loop{};
-  TwinTrack track{};
+  ReplicateLoop loop{};
+  ReplicateTrack track{};
 };
 
 // joint: of the model, whose torque leads

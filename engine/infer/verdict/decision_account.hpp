@@ -49,8 +49,9 @@ struct DecisionAccount {
   struct Move {
     std::string name{}, refusal{};
     double gain = 0.0, level = 0.0, p = 1.0;
-    double before = none, after = none;  // geometric mean of the channels' errors, unseen where there is such a record
-    std::vector<Number> numbers{};       // of a move that was kept
+    double before = none,
+           after = none;            // geometric mean of the channels' errors, validation where there is such a record
+    std::vector<Number> numbers{};  // of a move that was kept
     std::vector<std::string> rivals{};
   };
   struct Rung {

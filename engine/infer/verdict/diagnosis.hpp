@@ -50,22 +50,22 @@ struct AxisInterval {
   std::string unit;
 };
 
-// a located region: where the recording's residual is not what clean twins have
+// a located region: where the recording's residual is not what replicates have
 struct MismatchRegion {
   AxisInterval where;
   double time_share = unknown;
   double energy_share = unknown;      // of the residual's energy, baseline fitted
-  double repeatable_share = unknown;  // of the region's own energy: what twins never show
+  double repeatable_share = unknown;  // of the region's own energy: what replicates never show
 };
 
 struct MapCell {
   double from = 0.0, to = 0.0;
-  Eigen::Index samples = 0;    // rows
-  double mean_residual = 0.0;  // torque; of a spectrum: amplitude
-  double twin_mean = 0.0;      // the same of the twins, averaged
-  double twin_std = 0.0;       // spread of one twin's mean residual
-  double z = 0.0;              // (mean_residual - twin_mean) over its spread; of a spectrum: of the log power
-  double after_z = unknown;    // the same with the accepted effects in the model
+  Eigen::Index samples = 0;     // rows
+  double mean_residual = 0.0;   // torque; of a spectrum: amplitude
+  double replicate_mean = 0.0;  // the same of the replicates, averaged
+  double replicate_std = 0.0;   // spread of one replicate's mean residual
+  double z = 0.0;               // (mean_residual - replicate_mean) over its spread; of a spectrum: of the log power
+  double after_z = unknown;     // the same with the accepted effects in the model
   double after_residual = unknown;
   double torque_share = unknown;  // of a spectrum: of the torque's own energy about its mean; not stored
 };
@@ -76,8 +76,8 @@ struct MapAxis {
   std::string unit;
   bool is_spectrum = false;  // frequency, order: one-sided, cells hold power
   std::vector<MapCell> cells{};
-  double energy_share = 0.0;  // of the residual, beyond what the twins have on this axis
-  double p = 1.0;             // of that share, from the twins
+  double energy_share = 0.0;  // of the residual, beyond what the replicates have on this axis
+  double p = 1.0;             // of that share, from the replicates
   std::vector<MismatchRegion> regions{};
 };
 
@@ -89,17 +89,17 @@ struct Candidate {
   std::string name;
   std::string family;
   double z = 0.0, p = 1.0, q = 1.0;
-  double gain = 0.0;  // share of the mismatch (residual beyond the twins) it explains, at its best shape
+  double gain = 0.0;  // share of the mismatch (residual beyond the replicates) it explains, at its best shape
   double cv_gain =
       unknown;  // of the mismatch on blocks of time that nothing was fitted to; below 0 where it makes them worse
-  double chance_z = unknown;  // the largest z that 95 % of the twins stay below
+  double chance_z = unknown;  // the largest z that 95 % of the replicates stay below
   Decision decision = Decision::rejected;
   std::string reason{};  // one clause: why this decision; "" for accepted effects
 };
 
 struct EffectGain {
   // shares of the energy that the baseline leaves there: on the rows, on blocks of them that it was not fitted to,
-  // unseen
+  // validation
   double train = unknown, cv = unknown, validation = unknown;
 };
 
@@ -109,7 +109,7 @@ struct EffectCurve {
   std::vector<double> at{};        // cell centres
   std::vector<double> partial{};   // mean of effect + what is left
   std::vector<double> modelled{};  // mean of the effect
-  std::vector<double> spread{};    // of one twin's mean
+  std::vector<double> spread{};    // of one replicate's mean
 };
 
 struct NamedEffect {
@@ -120,7 +120,7 @@ struct NamedEffect {
   std::string acts_on;                    // word of ActsOn
   std::vector<std::string> equivalent{};  // effects that fit as well
   double p = 1.0, q = 1.0, z = 0.0;       // at the step at which it was accepted
-  bool p_is_bound = false;                // no twin reached it: p is an upper bound
+  bool p_is_bound = false;                // no replicate reached it: p is an upper bound
   EffectGain gain{};
   AxisInterval region{};               // where it acts, as one interval (acting_region.hpp)
   std::vector<AxisInterval> places{};  // the same as one or two
@@ -205,7 +205,7 @@ struct JointDiagnosis {
   LawLevels law_levels{};
   double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
   double validation_torque_energy = unknown;  // of the rows that validation_relerr is of
-  double floor_relerr = unknown;              // what a complete model would leave, unseen recording (or training)
+  double floor_relerr = unknown;              // what a complete model would leave, validation recording (or training)
   double train_floor_relerr = unknown;
   LeftOut train_left_out{}, validation_left_out{};
   HeldOutTest held_out{};
@@ -229,11 +229,11 @@ struct JointDiagnosis {
   double friction_wander =
       unknown;  // share of the level of dry friction per square root of a second (friction_wander.hpp)
   std::int64_t shape_evaluations = 0;  // spent on shapes, over all steps of the selection
-  std::size_t twins = 0;
+  std::size_t replicates = 0;
   double omnibus_z = 0.0, omnibus_p = 1.0;    // of the whole mismatch, at the first step
-  double mismatch_rms = 0.0;                  // torque beyond the twins
+  double mismatch_rms = 0.0;                  // torque beyond the replicates
   double left_rms = 0.0;                      // the same with the accepted effects in the model
-  std::vector<double> twin_energy{};          // residual energy of each twin over that of the recording
+  std::vector<double> replicate_energy{};     // residual energy of each replicate over that of the recording
   std::optional<DecisionAccount> decision{};  // what it was decided from
   std::string
       power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown
@@ -246,7 +246,7 @@ inline double least_p(std::size_t replicates) {
 
 // "joint 1", or "the joint of q5_rad" where its position column is known
 std::string which_joint(JointDiagnosis const& joint);
-// whether the rows that were looked at hold less than half of the residual's energy, in training or unseen
+// whether the rows that were looked at hold less than half of the residual's energy, in training or validation
 bool looks_at_less_than_half(JointDiagnosis const& joint);
 
 // of an arm: laws that act on several joints at once

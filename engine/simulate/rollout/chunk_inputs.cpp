@@ -29,13 +29,13 @@ ChunkInputs::ChunkInputs(RolloutTrack const& track, TrackSegment const& segment,
       reference_(track, segment),
       delay_ticks_(delay_ticks),
       is_same_(std::all_of(delay_ticks.begin(), delay_ticks.end(), [&](double one) { return one == delay_ticks[0]; })),
-      goal_(chunk_ticks * twin_lanes),
+      goal_(chunk_ticks * replicate_lanes),
       added_(chunk_ticks),
       outside_(chunk_ticks),
       enabled_(chunk_ticks) {}
 
 TickInputs ChunkInputs::at(std::size_t first_tick, std::size_t ticks) {
-  std::size_t const stride = is_same_ ? 1 : twin_lanes;
+  std::size_t const stride = is_same_ ? 1 : replicate_lanes;
   for (std::size_t row = 0; row < ticks; ++row)
     for (std::size_t lane = 0; lane < stride; ++lane)
       goal_[row * stride + lane] = reference_.at(static_cast<double>(first_tick + row) - delay_ticks_[lane]);

@@ -18,12 +18,13 @@ using Eigen::Index;
 Eigen::VectorXd answer_to(LoopNumbers const& numbers, std::size_t speed_samples, RolloutTrack const& track,
                           TrackSegment const& segment) {
   LaneLoops loops(track.tick_s(), 1, speed_samples);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) loops.set(lane, numbers);
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) loops.set(lane, numbers);
   double const delay = numbers.command_delay_s / track.tick_s();
   SegmentReference const reference(track, segment);
-  double goal[twin_lanes], read[twin_lanes], speed[twin_lanes], held[twin_lanes], logged[twin_lanes];
+  double goal[replicate_lanes], read[replicate_lanes], speed[replicate_lanes], held[replicate_lanes],
+      logged[replicate_lanes];
   LaneState state;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     state.q[lane] = segment.position;
     state.dq[lane] = segment.velocity;
     goal[lane] = reference.at(-delay);
@@ -36,17 +37,17 @@ Eigen::VectorXd answer_to(LoopNumbers const& numbers, std::size_t speed_samples,
     Index const after = std::min(at + 1, segment.first + segment.samples - 1), before = std::max(at - 1, segment.first);
     double const next = track.position[after];
     std::fill_n(
-        speed, twin_lanes,
+        speed, replicate_lanes,
         (next - track.position[before]) * track.rate_hz / static_cast<double>(std::max<Index>(1, after - before)));
     for (std::size_t tick = 0; tick < track.ticks_per_sample; ++tick) {
       double const share = static_cast<double>(tick) / static_cast<double>(track.ticks_per_sample);
-      std::fill_n(read, twin_lanes, track.position[at] + share * (next - track.position[at]));
-      std::fill_n(goal, twin_lanes,
+      std::fill_n(read, replicate_lanes, track.position[at] + share * (next - track.position[at]));
+      std::fill_n(goal, replicate_lanes,
                   reference.at(static_cast<double>(k) * static_cast<double>(track.ticks_per_sample) +
                                static_cast<double>(tick) - delay));
       double const added = track.added.size() > 0 ? track.added[at] : 0.0;
       double const enabled = track.enabled.size() > 0 ? track.enabled[at] : 1.0;
-      answer_tick(loops, {goal, twin_lanes, &added, nullptr, &enabled}, 0, read, speed, loop, held, logged);
+      answer_tick(loops, {goal, replicate_lanes, &added, nullptr, &enabled}, 0, read, speed, loop, held, logged);
       if (tick == 0) answers[k] = logged[0];
     }
   }
@@ -204,9 +205,9 @@ double loop_error(LoopLaw const& law, RolloutTrack const& track) {
     ReferenceSignal const signal(reference);
     LaneController controller(law, segment.position, segment.velocity, track.rate_hz);
     answers.emplace_back(segment.samples);
-    double read[twin_lanes], command[twin_lanes];
+    double read[replicate_lanes], command[replicate_lanes];
     for (Index k = 0; k < segment.samples; ++k) {
-      std::fill_n(read, twin_lanes, track.position[segment.first + k]);
+      std::fill_n(read, replicate_lanes, track.position[segment.first + k]);
       controller.command(read, open[k], signal(k + law.shift), command);
       answers.back()[k] = command[0];
     }

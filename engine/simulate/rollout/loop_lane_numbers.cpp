@@ -82,7 +82,7 @@ void LaneGears::set(std::size_t lane, GearFriction const& gear) {
 
 void LaneLoopState::start(LaneLoops const& loops, LaneState const& joint, double const* first_goal, double torque) {
   clock = {};
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     goal[lane] = goal_before[lane] = first_goal[lane];
     goal_speed[lane] = 0.0;
     goal_step_before[lane] = 0.0;
@@ -96,7 +96,7 @@ void LaneLoopState::start(LaneLoops const& loops, LaneState const& joint, double
     integral[lane] = sums ? before - rest : 0.0;
     command[lane] = lagged[lane] = logged[lane] = before;
   }
-  for (auto& row : commands) std::copy_n(command, twin_lanes, row);
+  for (auto& row : commands) std::copy_n(command, replicate_lanes, row);
 }
 
 }  // namespace torquescope

@@ -88,7 +88,7 @@ HWY_INLINE V friction_of_gear(LaneGears const& gears, V motor, V weight, V dq, V
 
 void gear_friction_lanes(LaneGears const& gears, double const* motor, double const* weight, double const* speed,
                          double const* sine, double const* cosine, double* friction) {
-  for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes)
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += vector_lanes)
     hn::StoreU(
         friction_of_gear(gears, hn::LoadU(d, motor + lane), hn::LoadU(d, weight + lane), hn::LoadU(d, speed + lane),
                          hn::LoadU(d, sine + lane), hn::LoadU(d, cosine + lane), lane),
@@ -119,7 +119,8 @@ HWY_INLINE V pass_on(LaneLoops const& loops, TickInputs const& in, std::size_t r
 // what the motor gives on average until the next tick
 HWY_INLINE V answer(LaneLoops const& loops, TickInputs const& in, std::size_t row, V read, V dq, LaneLoopState& loop,
                     std::size_t lane) {
-  V const wanted = in.goal_stride == 1 ? hn::Set(d, in.goal[row]) : hn::LoadU(d, in.goal + row * twin_lanes + lane);
+  V const wanted =
+      in.goal_stride == 1 ? hn::Set(d, in.goal[row]) : hn::LoadU(d, in.goal + row * replicate_lanes + lane);
   V const goal = loops.has_profile ? led_goal(loops, wanted, loop, lane) : wanted;
   store(goal, loop.goal, lane);
   V command = load(loop.command, lane);
@@ -168,7 +169,7 @@ HWY_INLINE V answer(LaneLoops const& loops, TickInputs const& in, std::size_t ro
 
 void answer_lanes(LaneLoops const& loops, TickInputs const& inputs, std::size_t row, double const* read,
                   double const* speed, LaneLoopState& loop, double* held, double* logged) {
-  for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes) {
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += vector_lanes) {
     V const acting = answer(loops, inputs, row, hn::LoadU(d, read + lane), hn::LoadU(d, speed + lane), loop, lane);
     hn::StoreU(acting, d, held + lane);
     hn::StoreU(load(loop.logged, lane), d, logged + lane);
@@ -178,7 +179,7 @@ void answer_lanes(LaneLoops const& loops, TickInputs const& inputs, std::size_t 
 
 void pass_on_lanes(LaneLoops const& loops, TickInputs const& inputs, std::size_t row, double const* command,
                    LaneLoopState& loop, double* held, double* logged) {
-  for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes) {
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += vector_lanes) {
     V const acting = pass_on(loops, inputs, row, hn::LoadU(d, command + lane), loop, lane);
     hn::StoreU(acting, d, held + lane);
     hn::StoreU(load(loop.logged, lane), d, logged + lane);
@@ -208,7 +209,7 @@ void roll(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& 
   V const step = hn::Set(d, loops.tick_s / static_cast<double>(steps)), one = hn::Set(d, 1.0);
   LoopClock const first_clock = loop.clock;
   LaneJoints const& joints = rolled.joints;
-  for (std::size_t first = 0; first < twin_lanes; first += n_vectors * vector_lanes) {
+  for (std::size_t first = 0; first < replicate_lanes; first += n_vectors * vector_lanes) {
     V q[n_vectors], dq[n_vectors], ddq[n_vectors], per_inertia[n_vectors];
     Turning angle[n_vectors];
     for (std::size_t i = 0; i < n_vectors; ++i) {
@@ -222,7 +223,7 @@ void roll(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& 
     loop.clock = first_clock;
     for (std::size_t tick = 0; tick < ticks; ++tick) {
       for (std::size_t i = 0; i < n_vectors; ++i) {
-        std::size_t const lane = first + i * vector_lanes, at = tick * twin_lanes + lane;
+        std::size_t const lane = first + i * vector_lanes, at = tick * replicate_lanes + lane;
         V const read = loops.has_encoder ? read_by_steps(loops, q[i], lane) : q[i];
         hn::StoreU(read, d, out.position + at);
         if (out.velocity != nullptr) hn::StoreU(dq[i], d, out.velocity + at);
@@ -301,8 +302,8 @@ void roll_ticks(RolledJoints const& rolled, LaneLoops const& loops, TickInputs c
                 std::size_t steps, LaneState& joint, LaneLoopState& loop, TickOutputs const& outputs) {
   if (!rolled.needs_angle())
     return TORQUESCOPE_DISPATCH(roll_light)(rolled, loops, inputs, ticks, steps, joint, loop, outputs);
-  alignas(64) double sine[twin_lanes], cosine[twin_lanes];
-  kernels::cosine_sine_of_multiple(1.0, joint.q, twin_lanes, cosine, sine);
+  alignas(64) double sine[replicate_lanes], cosine[replicate_lanes];
+  kernels::cosine_sine_of_multiple(1.0, joint.q, replicate_lanes, cosine, sine);
   TORQUESCOPE_DISPATCH(roll_heavy)(rolled, loops, inputs, ticks, steps, sine, cosine, joint, loop, outputs);
 }
 

@@ -1,21 +1,21 @@
 #pragma once
-// The loop of loop_numbers.hpp round the joint of twin_lanes.hpp, for sixteen trials side by side: tick by tick, in
-// vector registers.
+// The loop of loop_numbers.hpp round the joint of replicate_lanes.hpp, for sixteen trials side by side: tick by tick,
+// in vector registers.
 //
 // At a tick  the loop reads the position, answers, and its torque is held until the next tick; every hold_ticks-th tick
 //            of a slower controller answers
-// Shapes     rows of a chunk: [ticks][twin_lanes]
-// Accuracy   as twin_lanes.hpp; the sine of the weight is carried on from tick to tick by its series of fifth order and
-//            made anew with every chunk: a turn d a tick leaves d^6 / 720 of the weight
+// Shapes     rows of a chunk: [ticks][replicate_lanes]
+// Accuracy   as replicate_lanes.hpp; the sine of the weight is carried on from tick to tick by its series of fifth
+//            order and made anew with every chunk: a turn d a tick leaves d^6 / 720 of the weight
 // Bits       of a lane: the same on every instruction set, whatever stands in the other lanes
 // Threads    any number, each with its own states; does not allocate
 
 #include <cstddef>
 
 #include "engine/simulate/lane_step.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 #include "engine/simulate/rollout/gear_friction.hpp"
 #include "engine/simulate/rollout/loop_numbers.hpp"
-#include "engine/simulate/twin_lanes.hpp"
 
 namespace torquescope {
 
@@ -25,13 +25,13 @@ inline constexpr std::size_t most_speed_samples = 16;
 
 // numbers of every lane, for one tick of tick_s
 struct LaneLoops {
-  using Lanes = double[twin_lanes];
+  using Lanes = double[replicate_lanes];
   alignas(64) Lanes kp{}, kd{}, ki{}, ki_speed{}, feed_speed{}, feed_acceleration{}, added_gain{};
   alignas(64) Lanes least{}, most{}, speed_share{}, back_emf{}, goal_step{}, goal_change{};
   alignas(64) Lanes late_share{}, lag_end{}, lag_mean{}, log_share{};
   alignas(64) Lanes motor_gain{}, dead_band{}, punch{};
   alignas(64) Lanes encoder_step{}, encoder_phase{};  // that the loop and the record read by; 0: exactly
-  std::size_t late_ticks[twin_lanes] = {};
+  std::size_t late_ticks[replicate_lanes] = {};
   double tick_s = 0.0;
   std::size_t hold_ticks = 1;
   bool has_profile = false, has_feed = false, has_integral = false, has_delay = false, has_lag = false;
@@ -61,12 +61,12 @@ struct LoopClock {
 
 // what the loop remembers
 struct LaneLoopState {
-  using Lanes = double[twin_lanes];
+  using Lanes = double[replicate_lanes];
   alignas(64) Lanes goal{}, goal_speed{}, goal_before{}, goal_step_before{}, speed{}, integral{};
   alignas(64) Lanes command{}, lagged{}, logged{};
   LoopClock clock{};
-  alignas(64) double reads[most_speed_samples][twin_lanes] = {};   // a ring, by answer
-  alignas(64) double commands[most_delay_ticks][twin_lanes] = {};  // a ring, by tick
+  alignas(64) double reads[most_speed_samples][replicate_lanes] = {};   // a ring, by answer
+  alignas(64) double commands[most_delay_ticks][replicate_lanes] = {};  // a ring, by tick
 
   // at a first tick that follows rest or an even motion: position, velocity, goal and the command that was held before;
   // the integral takes up what the other parts leave of it. NaN: the command is what the loop answers at rest
@@ -75,11 +75,11 @@ struct LaneLoopState {
 
 // of one chunk; each may be none: zeros, no added command, a drive that is on
 struct TickInputs {
-  double const* goal = nullptr;          // [ticks][lanes], delayed; or [ticks] where all lanes see the same
-  std::size_t goal_stride = twin_lanes;  // 1 of the latter
-  double const* added = nullptr;         // [ticks]
-  double const* outside = nullptr;       // [ticks], torque on the joint from outside
-  double const* enabled = nullptr;       // [ticks], 1 or 0
+  double const* goal = nullptr;               // [ticks][lanes], delayed; or [ticks] where all lanes see the same
+  std::size_t goal_stride = replicate_lanes;  // 1 of the latter
+  double const* added = nullptr;              // [ticks]
+  double const* outside = nullptr;            // [ticks], torque on the joint from outside
+  double const* enabled = nullptr;            // [ticks], 1 or 0
 };
 
 // [ticks][lanes], at the ticks: positions and speeds as they are, the torque as it is logged
@@ -91,7 +91,7 @@ struct TickOutputs {
 
 // gear_friction.hpp, one a lane
 struct LaneGears {
-  using Lanes = double[twin_lanes];
+  using Lanes = double[replicate_lanes];
   alignas(64) Lanes load{}, load_square{}, stribeck{}, load_stribeck{}, per_speed{}, motor_share{};
   alignas(64) Lanes angle_cos{}, angle_sin{};
   bool any = false, turns = false;
@@ -103,7 +103,7 @@ struct RolledJoints {
   LaneJoints joints{};
   LaneDryFriction dry{};
   LaneGears gears{};
-  alignas(64) double offset[twin_lanes] = {};
+  alignas(64) double offset[replicate_lanes] = {};
 
   bool needs_angle() const { return joints.has_weight || gears.turns; }
 };

@@ -23,7 +23,7 @@ Simulated simulate(RolloutTrack const& track, ReplayedModel const& model) {
     std::array<double const*, replay_channels> const from{rows.position, rows.velocity, rows.torque};
     for (std::size_t c = 0; c < replay_channels; ++c)
       for (Index k = 0; k < rows.samples; ++k)
-        result.channels[c][rows.first + k] = from[c][static_cast<std::size_t>(k) * twin_lanes];
+        result.channels[c][rows.first + k] = from[c][static_cast<std::size_t>(k) * replicate_lanes];
   });
   return result;
 }
@@ -67,8 +67,8 @@ double rms_of_signal(Eigen::VectorXd const& measured, std::vector<bool> const& i
 
 // the same joint, whose encoder lies elsewhere and which begins elsewhere within its step
 std::vector<RolloutTrial> replicates_of(RolloutTrial const& trial, double encoder_step) {
-  std::vector<RolloutTrial> replicates(twin_lanes, trial);
-  for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {
+  std::vector<RolloutTrial> replicates(replicate_lanes, trial);
+  for (std::uint32_t lane = 0; lane < replicate_lanes; ++lane) {
     RandomStream random({0, 0, RandomDomain::simulation}, 0, lane);
     replicates[lane].encoder_step = encoder_step;
     replicates[lane].encoder_phase = encoder_step * (random.uniform() - 0.5);
@@ -86,13 +86,13 @@ double horizon_of(RolloutTrack const& track, ReplayedModel const& model, Eigen::
   auto const replicates = replicates_of(model.trial, track.encoder_step);
   roll_out(track, model.structure, replicates, [&](RolloutRows const& rows) {
     for (Index k = 0; k < rows.samples; ++k) {
-      double const* const q = rows.position + static_cast<std::size_t>(k) * twin_lanes;
+      double const* const q = rows.position + static_cast<std::size_t>(k) * replicate_lanes;
       double mean = 0.0, squares = 0.0;
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) mean += q[lane] / static_cast<double>(twin_lanes);
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) squares += (q[lane] - mean) * (q[lane] - mean);
+      for (std::size_t lane = 0; lane < replicate_lanes; ++lane) mean += q[lane] / static_cast<double>(replicate_lanes);
+      for (std::size_t lane = 0; lane < replicate_lanes; ++lane) squares += (q[lane] - mean) * (q[lane] - mean);
       Index const at = rows.first + k;
       double const off = track.position[at] - simulated[at];
-      spread[at / length] += squares / static_cast<double>(twin_lanes - 1);
+      spread[at / length] += squares / static_cast<double>(replicate_lanes - 1);
       error[at / length] += off * off;
       count[at / length] += 1.0;
     }

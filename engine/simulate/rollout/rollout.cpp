@@ -55,7 +55,7 @@ class Lanes {
   Lanes(RolloutTrack const& track, RolloutStructure const& structure, std::span<RolloutTrial const> trials)
       : has_law_(track.law.has_value()), loops(track.tick_s(), structure.hold_ticks, structure.speed_samples) {
     std::vector<std::vector<std::vector<double>>> parameters(structure.effects.size());
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       used.push_back(on_track(track, trials[lane < trials.size() ? lane : 0]));
       RolloutTrial const& trial = used.back();
       rolled.joints.set(lane, trial.joint);
@@ -75,14 +75,14 @@ class Lanes {
     double const longest_s = std::min(structure.step_s, track.tick_s());
     steps = static_cast<std::size_t>(std::ceil(track.tick_s() / longest_s * (1.0 - 1e-9)));
     braked = rolled.joints;
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) braked.viscous[lane] += loops.back_emf[lane];
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) braked.viscous[lane] += loops.back_emf[lane];
   }
 
   bool is_fast() const { return makers.empty() && !has_law_; }
 
   void read_encoder(double* position) const {
     if (!loops.has_encoder) return;
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       double const step = used[lane].encoder_step, phase = used[lane].encoder_phase;
       if (step > 0.0) position[lane] = step * std::floor((position[lane] + phase) / step + 0.5) - phase;
     }
@@ -102,9 +102,9 @@ class Lanes {
 };
 
 struct Chunk {
-  kernels::AlignedDoubles position = kernels::AlignedDoubles(chunk_ticks * twin_lanes),
-                          velocity = kernels::AlignedDoubles(chunk_ticks * twin_lanes),
-                          torque = kernels::AlignedDoubles(chunk_ticks * twin_lanes);
+  kernels::AlignedDoubles position = kernels::AlignedDoubles(chunk_ticks * replicate_lanes),
+                          velocity = kernels::AlignedDoubles(chunk_ticks * replicate_lanes),
+                          torque = kernels::AlignedDoubles(chunk_ticks * replicate_lanes);
   TickOutputs outputs() { return {position.data(), velocity.data(), torque.data()}; }
 };
 
@@ -136,26 +136,26 @@ class SlowSegment {
 
   void roll(TickInputs const& inputs, std::size_t first_tick, std::size_t ticks, LaneState& state, LaneLoopState& loop,
             TickOutputs const& out) {
-    alignas(64) double read[twin_lanes], held[twin_lanes], logged[twin_lanes], acts[twin_lanes];
+    alignas(64) double read[replicate_lanes], held[replicate_lanes], logged[replicate_lanes], acts[replicate_lanes];
     for (std::size_t row = 0; row < ticks; ++row) {
       double const time_s = start_s_ + static_cast<double>(first_tick + row) * track_.tick_s();
-      std::copy_n(state.q, twin_lanes, read);
+      std::copy_n(state.q, replicate_lanes, read);
       if (shifts_channels_) {
         LaneInstant const at = instant_of(state, time_s, track_.tick_s(), motor_);
         for (auto const& effect : motion_.effects()) effect->shift_position(at, read);
       }
       lanes_.read_encoder(read);
       answer(inputs, first_tick, row, read, state.dq, loop, held, logged);
-      std::copy_n(held, twin_lanes, motor_);
+      std::copy_n(held, replicate_lanes, motor_);
       if (shifts_channels_) {
         LaneInstant const answered = instant_of(state, time_s, track_.tick_s(), motor_);
         for (auto const& effect : motion_.effects()) effect->shift_torque(answered, logged);
       }
-      std::copy_n(read, twin_lanes, out.position + row * twin_lanes);
-      std::copy_n(state.dq, twin_lanes, out.velocity + row * twin_lanes);
-      std::copy_n(logged, twin_lanes, out.torque + row * twin_lanes);
+      std::copy_n(read, replicate_lanes, out.position + row * replicate_lanes);
+      std::copy_n(state.dq, replicate_lanes, out.velocity + row * replicate_lanes);
+      std::copy_n(logged, replicate_lanes, out.torque + row * replicate_lanes);
       double const outside = inputs.outside != nullptr ? inputs.outside[row] : 0.0;
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
         acts[lane] = held[lane] - lanes_.rolled.offset[lane] + outside;
       bool const is_on = inputs.enabled == nullptr || inputs.enabled[row] != 0.0;
       if (lanes_.rolled.gears.any) rub_gears(is_on, state);
@@ -171,26 +171,26 @@ class SlowSegment {
     std::size_t const tick = first_tick + row;
     auto const k = static_cast<Eigen::Index>(tick / track_.ticks_per_sample);
     if (tick % track_.ticks_per_sample == 0) law_->command(read, open_[k], wanted_[k], command_);
-    alignas(64) double whole[twin_lanes];
+    alignas(64) double whole[replicate_lanes];
     double const added = inputs.added != nullptr ? inputs.added[row] : 0.0;
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
       whole[lane] = command_[lane] + lanes_.loops.added_gain[lane] * added;
     pass_on_tick(lanes_.loops, inputs, row, whole, loop, held, logged);
   }
 
   void rub_gears(bool is_on, LaneState const& state) {
-    alignas(64) double motor[twin_lanes], weight[twin_lanes], friction[twin_lanes];
-    alignas(64) double sine[twin_lanes], cosine[twin_lanes];
+    alignas(64) double motor[replicate_lanes], weight[replicate_lanes], friction[replicate_lanes];
+    alignas(64) double sine[replicate_lanes], cosine[replicate_lanes];
     LaneJoints const& joints = lanes_.rolled.joints;
     LaneDryFriction dry = lanes_.rolled.dry;
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       motor[lane] = motor_[lane] - (is_on ? lanes_.loops.back_emf[lane] * state.dq[lane] : 0.0);
       sine[lane] = std::sin(state.q[lane]);
       cosine[lane] = std::cos(state.q[lane]);
       weight[lane] = joints.gravity_sin[lane] * sine[lane] + joints.gravity_cos[lane] * cosine[lane];
     }
     gear_friction(lanes_.rolled.gears, motor, weight, state.dq, sine, cosine, friction);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       dry.forward[lane] = std::max(dry.forward[lane] + friction[lane], 0.0);
       dry.backward[lane] = std::min(dry.backward[lane] - friction[lane], 0.0);
     }
@@ -204,8 +204,8 @@ class SlowSegment {
   bool shifts_channels_ = false;
   std::optional<LaneController> law_{};
   Eigen::VectorXd open_{}, wanted_{};
-  alignas(64) double motor_[twin_lanes] = {}, command_[twin_lanes] = {};
-  double ones_[twin_lanes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  alignas(64) double motor_[replicate_lanes] = {}, command_[replicate_lanes] = {};
+  double ones_[replicate_lanes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 };
 
 // lanes that are lost stay so
@@ -216,20 +216,21 @@ class Watch {
     middle_ = 0.5 * (track.position.maxCoeff() + track.position.minCoeff());
     double const range = track.position.maxCoeff() - track.position.minCoeff();
     farthest_ = far_times * std::max({range, std::abs(segment.velocity) / track.rate_hz, 1e-3});
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
       is_lost_[lane] = lane < trials.size() && !trials[lane].is_possible;
   }
 
   void look(Chunk& chunk, std::size_t ticks, LaneState& state) {
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       // what leaves for so far does not come back within a chunk
-      if (!(std::abs(chunk.position[(ticks - 1) * twin_lanes + lane] - middle_) < farthest_)) is_lost_[lane] = true;
+      if (!(std::abs(chunk.position[(ticks - 1) * replicate_lanes + lane] - middle_) < farthest_))
+        is_lost_[lane] = true;
       if (!is_lost_[lane]) continue;
       state.q[lane] = middle_;  // out of the way: no overflow slows the others down
       state.dq[lane] = state.ddq[lane] = 0.0;
       for (std::size_t row = 0; row < ticks; ++row)
         for (auto* values : {&chunk.position, &chunk.velocity, &chunk.torque})
-          (*values)[row * twin_lanes + lane] = no_number;
+          (*values)[row * replicate_lanes + lane] = no_number;
     }
   }
 
@@ -239,15 +240,15 @@ class Watch {
 
  private:
   double middle_ = 0.0, farthest_ = 0.0;
-  bool is_lost_[twin_lanes] = {};
+  bool is_lost_[replicate_lanes] = {};
 };
 
 // rows of ticks become rows of samples, in place
 void keep_samples(kernels::AlignedDoubles& rows, std::size_t samples, std::size_t ticks_per_sample) {
   if (ticks_per_sample == 1) return;
   for (std::size_t k = 1; k < samples; ++k)
-    std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(k * ticks_per_sample * twin_lanes), twin_lanes,
-                rows.begin() + static_cast<std::ptrdiff_t>(k * twin_lanes));
+    std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(k * ticks_per_sample * replicate_lanes), replicate_lanes,
+                rows.begin() + static_cast<std::ptrdiff_t>(k * replicate_lanes));
 }
 
 // whole samples, and for a weight few enough that its angle's series holds
@@ -268,7 +269,7 @@ std::size_t ticks_of_chunk(RolloutTrack const& track, bool has_weight) {
 void tell_settled(TrackSegment const& segment, Eigen::Index first, Eigen::Index samples, Chunk const& chunk,
                   RolloutSink const& sink) {
   Eigen::Index const skipped = std::clamp<Eigen::Index>(segment.first - first, 0, samples);
-  std::ptrdiff_t const at = skipped * static_cast<std::ptrdiff_t>(twin_lanes);
+  std::ptrdiff_t const at = skipped * static_cast<std::ptrdiff_t>(replicate_lanes);
   if (skipped < samples)
     sink({first + skipped, samples - skipped, chunk.position.data() + at, chunk.velocity.data() + at,
           chunk.torque.data() + at});
@@ -281,13 +282,13 @@ void roll_segment(RolloutTrack const& track, TrackSegment const& compared, Lanes
   segment.samples += compared.settling;
   ChunkInputs inputs(track, segment, lanes.delay_ticks);
   LaneState state;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     state.q[lane] = segment.position + lanes.used[lane].position_step;
     state.dq[lane] = segment.velocity + lanes.used[lane].velocity_step;
   }
   LaneLoopState loop;
-  double first_goal[twin_lanes];
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+  double first_goal[replicate_lanes];
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
     first_goal[lane] = inputs.reference().at(-lanes.delay_ticks[lane]);
   loop.start(lanes.loops, state, first_goal, segment.torque);
   std::optional<SlowSegment> slow;
@@ -316,7 +317,7 @@ void roll_segment(RolloutTrack const& track, TrackSegment const& compared, Lanes
 
 void roll_out(RolloutTrack const& track, RolloutStructure const& structure, std::span<RolloutTrial const> trials,
               RolloutSink const& sink) {
-  TORQUESCOPE_EXPECT(!trials.empty() && trials.size() <= twin_lanes && track.ticks_per_sample <= chunk_ticks);
+  TORQUESCOPE_EXPECT(!trials.empty() && trials.size() <= replicate_lanes && track.ticks_per_sample <= chunk_ticks);
   // a lane that cannot be simulated is given the first that can, and is lost from the start
   std::vector<RolloutTrial> possible(trials.begin(), trials.end());
   auto const first = std::find_if(trials.begin(), trials.end(), [](auto const& one) { return one.is_possible; });

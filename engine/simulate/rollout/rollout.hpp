@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "engine/effects/effect.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 #include "engine/simulate/rollout/gear_friction.hpp"
 #include "engine/simulate/rollout/loop_numbers.hpp"
 #include "engine/simulate/rollout/track.hpp"
-#include "engine/simulate/twin_lanes.hpp"
 
 namespace torquescope {
 
@@ -43,7 +43,7 @@ struct RolloutTrial {
   bool is_possible = true;  // false: no inertia, or dry friction that would drive; it is not simulated
 };
 
-// rows of samples [first, first + samples): [samples][twin_lanes]
+// rows of samples [first, first + samples): [samples][replicate_lanes]
 struct RolloutRows {
   Eigen::Index first = 0, samples = 0;
   double const* position = nullptr;
@@ -52,7 +52,7 @@ struct RolloutRows {
 };
 using RolloutSink = std::function<void(RolloutRows const&)>;
 
-// 1 <= trials.size() <= twin_lanes; lanes beyond the last hold anything
+// 1 <= trials.size() <= replicate_lanes; lanes beyond the last hold anything
 void roll_out(RolloutTrack const& track, RolloutStructure const& structure, std::span<RolloutTrial const> trials,
               RolloutSink const& sink);
 

@@ -100,7 +100,7 @@ class Search {
 
   // sixteen dampings from hardly any to a creep
   std::vector<FitPoint> steps_from(FitPoint const& at, FitSlope const& slope) const {
-    constexpr int dampings = static_cast<int>(twin_lanes);
+    constexpr int dampings = static_cast<int>(replicate_lanes);
     constexpr double least_curvature = 1e-12, decades = 0.6, first_decade = -6.0;
     Eigen::VectorXd const diagonal = slope.curvature.diagonal().cwiseMax(least_curvature);
     std::vector<FitPoint> points;

@@ -9,7 +9,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/error.hpp"
-#include "engine/simulate/twin_joint.hpp"
+#include "engine/simulate/replicate_joint.hpp"
 
 namespace torquescope {
 namespace {
@@ -99,7 +99,7 @@ RolloutModel::RolloutModel(Regressor const& regressor, Eigen::VectorXd const& st
   bool const fits_back_emf = std::find(loop_.free.begin(), loop_.free.end(), LoopKey::back_emf) != loop_.free.end();
   Eigen::Index at = 0;
   for (auto const* term : terms_) {
-    TwinJoint ignored;
+    ReplicateJoint ignored;
     std::vector<double> const zeros(term->n_linear(), 0.0);
     in_lanes_.push_back(place_in_lanes(ignored, term->name(), zeros.data()) ? 1 : 0);
     if (in_lanes_.back() == 0) structure_.effects.push_back(term);
@@ -184,7 +184,7 @@ RolloutTrial RolloutModel::trial(Eigen::Ref<Eigen::VectorXd const> const& parame
   TORQUESCOPE_EXPECT(static_cast<std::size_t>(parameters.size()) == size());
   RolloutTrial trial;
   double const* value = parameters.data();
-  TwinJoint placed;
+  ReplicateJoint placed;
   placed.lanes.inertia = 0.0;
   for (std::size_t t = 0; t < terms_.size(); ++t) {
     std::size_t const count = terms_[t]->n_linear();

@@ -160,13 +160,13 @@ Json joint_json(JointDiagnosis const& joint) {
   Json mismatch = Json::array();
   for (auto const& axis : joint.map)
     for (auto const& region : axis.regions) mismatch.push_back(region_json(region));
-  auto const effect = [&](NamedEffect const& one) { return effect_json(one, joint.twins); };
-  auto const candidate = [&](Candidate const& one) { return candidate_json(one, joint.twins); };
+  auto const effect = [&](NamedEffect const& one) { return effect_json(one, joint.replicates); };
+  auto const candidate = [&](Candidate const& one) { return candidate_json(one, joint.replicates); };
   Json made = {{"joint", joint.joint}, {"name", joint.name}};
   // of an arm, whose joints have verdicts of their own
   if (!joint.reason.empty()) made.update({{"verdict", word(joint.verdict)}, {"reason", joint.reason}});
   made.update(
-      {{"twins", joint.twins},
+      {{"twins", joint.replicates},
        {"baseline",
         {{"parameters", json_list(joint.baseline, parameter_json)},
          {"train_relerr", json_number(joint.train_relerr)},

@@ -48,13 +48,14 @@ MapAxis read_map_axis(StoredObjects const& in, std::string const& map, std::stri
   axis.p = in.number(group, "p");
   auto const column = [&](char const* dataset) { return in.numbers(group + "/" + dataset); };
   auto const from = column("from"), to = column("to"), residual = column("mean_residual");
-  auto const twin_mean = column("twin_mean"), twin_std = column("twin_std"), z = column("z");
+  auto const replicate_mean = column("twin_mean"), replicate_std = column("twin_std"), z = column("z");
   auto const after_residual = column("after_residual"), after_z = column("after_z");
   auto const samples = in.whole_numbers(group + "/samples");
-  in.check_same_length(group, from.size(), to, residual, twin_mean, twin_std, z, after_residual, after_z, samples);
+  in.check_same_length(group, from.size(), to, residual, replicate_mean, replicate_std, z, after_residual, after_z,
+                       samples);
   for (std::size_t i = 0; i < from.size(); ++i)
-    axis.cells.push_back(
-        {from[i], to[i], samples[i], residual[i], twin_mean[i], twin_std[i], z[i], after_z[i], after_residual[i]});
+    axis.cells.push_back({from[i], to[i], samples[i], residual[i], replicate_mean[i], replicate_std[i], z[i],
+                          after_z[i], after_residual[i]});
   axis.regions = read_regions(in, group + "/regions", axis);
   return axis;
 }
@@ -194,7 +195,7 @@ void read_joint_attributes(StoredObjects const& in, std::string const& group, Jo
   joint.disturbance = in.number(group, "disturbance");
   joint.friction_wander = in.number(group, "friction_wander");
   joint.shape_evaluations = in.whole(group, "shape_evaluations");
-  joint.twins = static_cast<std::size_t>(std::max<std::int64_t>(0, in.whole(group, "twins")));
+  joint.replicates = static_cast<std::size_t>(std::max<std::int64_t>(0, in.whole(group, "twins")));
   joint.omnibus_z = in.number(group, "omnibus_z");
   joint.omnibus_p = in.number(group, "omnibus_p");
   joint.mismatch_rms = in.number(group, "mismatch_rms");
@@ -213,7 +214,7 @@ JointDiagnosis read_joint(StoredObjects const& in, std::string const& group) {
     for (auto const& axis : in.texts(group + "/map", "order"))
       joint.map.push_back(read_map_axis(in, group + "/map", axis));
   joint.candidates = read_candidates(in, group + "/candidates");
-  joint.twin_energy = in.numbers(group + "/twin_energy");
+  joint.replicate_energy = in.numbers(group + "/twin_energy");
   read_lists(in, group, joint);
   return joint;
 }

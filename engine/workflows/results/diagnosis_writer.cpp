@@ -61,8 +61,9 @@ void write_map_axis(ResultWriter& writer, std::string const& map, MapAxis const&
       .numbers("to", [](C const& c) { return c.to; }, {axis.unit, "upper end of the cell"})
       .numbers("centre", [](C const& c) { return 0.5 * (c.from + c.to); }, {axis.unit, "middle of the cell"})
       .numbers("mean_residual", [](C const& c) { return c.mean_residual; }, {torque, "mean residual"})
-      .numbers("twin_mean", [](C const& c) { return c.twin_mean; }, {torque, "mean residual of the replicates"})
-      .numbers("twin_std", [](C const& c) { return c.twin_std; }, {torque, "spread of one replicate's mean residual"})
+      .numbers("twin_mean", [](C const& c) { return c.replicate_mean; }, {torque, "mean residual of the replicates"})
+      .numbers("twin_std", [](C const& c) { return c.replicate_std; },
+               {torque, "spread of one replicate's mean residual"})
       .numbers("z", [](C const& c) { return c.z; }, {"1", "mean residual beyond the replicates, in their spread"})
       .numbers("after_residual", [](C const& c) { return c.after_residual; },
                {torque, "mean residual with everything named in the model"})
@@ -237,7 +238,7 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "disturbance", joint.disturbance);
   writer.attribute(group, "friction_wander", joint.friction_wander);
   writer.attribute(group, "shape_evaluations", joint.shape_evaluations);
-  writer.attribute(group, "twins", static_cast<std::int64_t>(joint.twins));
+  writer.attribute(group, "twins", static_cast<std::int64_t>(joint.replicates));
   writer.attribute(group, "omnibus_z", joint.omnibus_z);
   writer.attribute(group, "omnibus_p", joint.omnibus_p);
   writer.attribute(group, "mismatch_rms", joint.mismatch_rms);
@@ -263,10 +264,10 @@ void write_joint(ResultWriter& writer, std::string const& group, JointDiagnosis 
   for (std::size_t i = 0; i < joint.traces.size(); ++i)
     write_trace(writer, fmt::format("{}/traces/trace_{}", group, i + 1), joint.traces[i], joint);
   write_lists(writer, group, joint);
-  if (joint.twin_energy.empty()) return;
-  writer.numbers(group + "/twin_energy", {joint.twin_energy.size()}, joint.twin_energy,
+  if (joint.replicate_energy.empty()) return;
+  writer.numbers(group + "/twin_energy", {joint.replicate_energy.size()}, joint.replicate_energy,
                  Note{"1", "residual energy of each replicate over that of the recording"}.over({"twin"}));
-  write_index(writer, group, "twin", joint.twin_energy.size());
+  write_index(writer, group, "twin", joint.replicate_energy.size());
 }
 
 }  // namespace

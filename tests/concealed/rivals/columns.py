@@ -9,10 +9,10 @@ extra-sum-of-squares test of nonlinear regression does (Bates, Watts 1988, secti
 shapes.
 
 Timing comes first, as for anybody who is careful: a digital loop holds its torque for a sample, so that what is logged
-at the tick acts half a sample later (measured on drawn cases: -0.5 samples wherever nothing else bends it). Our twins
-know that from the loop. For the rivals a delay of at most one sample of the recording, either way, is a nuisance of the
-model and no finding (`aligned`); a longer one stays a candidate. Without this all of them name a delay on every clean
-recording.
+at the tick acts half a sample later (measured on drawn cases: -0.5 samples wherever nothing else bends it). Replicates
+of ours know that from the loop. For the rivals a delay of at most one sample of the recording, either way, is a
+nuisance of the model and no finding (`aligned`); a longer one stays a candidate. Without this all of them name a delay
+on every clean recording.
 """
 
 import dataclasses
@@ -62,7 +62,7 @@ class Candidate:
 class Columns:
     train: Record
     candidates: list                 # of Candidate, in the order of the catalogue
-    unseen: list = dataclasses.field(default_factory=list)  # Records
+    validation: list = dataclasses.field(default_factory=list)  # Records
     n_not_testable: int = 0          # effects that explain nothing here: they were looked for all the same
     q: float = 0.05                  # share of false names put up with, from the job
     max_effects: int = 5             # named at most, from the job
@@ -103,8 +103,8 @@ def read(path, q=0.05, max_effects=5):
                                         len(effect["shape"]) if "shape" in effect else 0,
                                         _text(effect.attrs["acts_on"]), bool(effect.attrs["is_event"])))
         rate_hz = float(file["data/train"].attrs["rate_hz"])
-        unseen = sorted(key for key in here if key.startswith("validate_"))
-        found = Columns(_record(here["train"], names), candidates, [_record(here[key], names) for key in unseen],
+        validation = sorted(key for key in here if key.startswith("validate_"))
+        found = Columns(_record(here["train"], names), candidates, [_record(here[key], names) for key in validation],
                         len(here.attrs.get("not_testable", [])), q, max_effects)
     return aligned(found, 1.0 / rate_hz)
 
@@ -119,8 +119,8 @@ def aligned(columns, longest_s):
         return columns
     records = [dataclasses.replace(r, regressor=model(r, ["delay"]),
                                    candidates={k: v for k, v in r.candidates.items() if k != "delay"})
-               for r in (columns.train, *columns.unseen)]
-    return dataclasses.replace(columns, train=records[0], unseen=records[1:],
+               for r in (columns.train, *columns.validation)]
+    return dataclasses.replace(columns, train=records[0], validation=records[1:],
                                candidates=[c for c in columns.candidates if c.name != "delay"])
 
 
@@ -144,10 +144,10 @@ def apart(matrix, beside):
     return matrix - q @ (q.T @ matrix)
 
 
-def unseen_relerr(columns, names):
+def validation_relerr(columns, names):
     """Relative error on the unseen recordings of the least-squares fit with these effects; None when there are none.
     An event belongs to the training recording: elsewhere it does not act."""
-    if not columns.unseen:
+    if not columns.validation:
         return None
     parameters = solve(model(columns.train, names), columns.train.torque)
     at = columns.train.regressor.shape[1]
@@ -156,8 +156,8 @@ def unseen_relerr(columns, names):
         if columns[name].is_event:
             parameters[at : at + width] = 0.0
         at += width
-    left = sum(float(np.sum((r.torque - model(r, names) @ parameters) ** 2)) for r in columns.unseen)
-    return (left / sum(float(np.sum(r.torque**2)) for r in columns.unseen)) ** 0.5
+    left = sum(float(np.sum((r.torque - model(r, names) @ parameters) ** 2)) for r in columns.validation)
+    return (left / sum(float(np.sum(r.torque**2)) for r in columns.validation)) ** 0.5
 
 
 def blocks(record, count=10):

@@ -30,8 +30,8 @@ def part(record, rows):
 
 def split(columns):
     """-> (record to fit, records to compare on)"""
-    if columns.unseen:
-        return columns.train, columns.unseen
+    if columns.validation:
+        return columns.train, columns.validation
     at = columns.train.at
     border = 4 * len(columns.train) // 5
     fitted = np.flatnonzero(at < at[border] - columns.train.guard)

@@ -68,7 +68,7 @@ def arm_error(joints, parameters):
     return np.linalg.norm(np.concatenate(left)) / np.linalg.norm(np.concatenate([joint[4] for joint in joints]))
 
 
-def write_estimator(group, title, found, train, unseen, rows):
+def write_estimator(group, title, found, train, validation, rows):
     parameters, error, naive = found
     phi, torque = rows
     residual = torque - phi @ parameters
@@ -77,21 +77,21 @@ def write_estimator(group, title, found, train, unseen, rows):
         "mse_median": (residual**2).mean(), "mse_best": (residual**2).mean(), "mse_worst": (residual**2).mean(),
         "mse_std": 0.0, "gap_median": 0.0, "residual_std_median": residual.std(),
         "relerr_median": arm_error(train, parameters), "relerr_all_rows": 1.1 * arm_error(train, parameters),
-        "validation_relerr_median": arm_error(unseen, parameters),
-        "validation_relerr_all_rows": 1.1 * arm_error(unseen, parameters)})
+        "validation_relerr_median": arm_error(validation, parameters),
+        "validation_relerr_all_rows": 1.1 * arm_error(validation, parameters)})
     for key, value in (("parameters", parameters), ("standard_error", error), ("standard_error_naive", naive)):
         make.put(group, key, value[None], "SI")
     wide = 1.959964 * error
     make.put(group, "ci95", np.stack([parameters - wide, parameters + wide], axis=-1)[None], "SI")
     make.put(group, "stop_reason", ["closed form"])
-    for prefix, joints in (("", train), ("validation_", unseen)):
+    for prefix, joints in (("", train), ("validation_", validation)):
         make.put(group, prefix + "joint_relerr", joint_errors(joints, parameters))
         make.put(group, prefix + "joint_relerr_all_rows", 1.1 * joint_errors(joints, parameters))
 
 
 def arm(path):
     """Simulated, truth known, with a validation motion; of the robot file's inertias one is another."""
-    train, unseen = rows_of(5, TRUTH), rows_of(15, TRUTH)
+    train, validation = rows_of(5, TRUTH), rows_of(15, TRUTH)
     with h5py.File(path, "w") as file:
         file.attrs.update({"format": 2, "complete": 1, "creator": "torquescope 0.1.0",
                            "content_sha256": hashlib.sha256(b"arm").hexdigest()})
@@ -114,7 +114,7 @@ def arm(path):
         for number, own in enumerate(OWN, start=1):
             make.put(file, f"arm/joint_{number}/parameters", np.array(own))
         write_rows(file.create_group("data/train"), train, 1)
-        write_rows(file.create_group("data/validate"), unseen, 1)
+        write_rows(file.create_group("data/validate"), validation, 1)
         phi, torque = stacked(train)
         normed = phi / np.linalg.norm(phi, axis=0)
         health = file.create_group("data/regressor_health")
@@ -125,7 +125,7 @@ def arm(path):
         plain = np.concatenate([np.full(len(joint[0]), noise) for joint, noise in zip(train, NOISE)])
         for name, weights in (("ols", plain**2), ("wls", None)):
             found = make.least_squares(phi, torque, weights)
-            write_estimator(runs.create_group(name), name.upper(), found, train, unseen, (phi, torque))
+            write_estimator(runs.create_group(name), name.upper(), found, train, validation, (phi, torque))
         make.texts_of_fixed_length(file)
 
 

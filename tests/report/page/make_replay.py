@@ -209,18 +209,18 @@ def write_rollout_errors(group, file, label, gone=False, channel="torque", unit=
     """Of the median run; the others do as well as it."""
     runs = len(group["parameters"])
     if gone:
-        mse, relerr, mean, std, samples, unseen = (np.nan,) * 6
+        mse, relerr, mean, std, samples, validation = (np.nan,) * 6
     else:
         mse, relerr, mean, std, samples = errors_of(file, label, "train", channel)
-        unseen = errors_of(file, label, "validate", channel)[1]
+        validation = errors_of(file, label, "validate", channel)[1]
     for name, value, of in (("mse", mse, f"({unit})2"), ("sse", mse * samples, f"({unit})2"), ("relerr", relerr, "1"),
                             ("residual_std", std, unit), ("residual_mean", mean, unit),
-                            ("validation_relerr", unseen, "1")):
+                            ("validation_relerr", validation, "1")):
         if name in group:
             del group[name]
         put(group, name, np.full(runs, value), of)
     tell(group, mse_median=mse, mse_best=mse, mse_worst=mse, mse_std=0.0, relerr_median=relerr,
-         validation_relerr_median=unseen, residual_std_median=std, median_run=0, rollout_error_unit=unit,
+         validation_relerr_median=validation, residual_std_median=std, median_run=0, rollout_error_unit=unit,
          remark="errors are of the torque on all samples, simulated in closed loop; of rows they would be others")
 
 

@@ -228,8 +228,8 @@ def write_estimator(runs, name, kind, title, result, sets, floor, options):
     if validate is None:
         validation = np.full(len(parameters), np.nan)
     else:
-        unseen = validate["torque"][()]
-        validation = np.sqrt(((unseen - parameters @ validate["regressor"][()].T) ** 2).sum(1) / (unseen**2).sum())
+        recorded = validate["torque"][()]
+        validation = np.sqrt(((recorded - parameters @ validate["regressor"][()].T) ** 2).sum(1) / (recorded**2).sum())
     evaluations = MEMBERS * (GENERATIONS + 1) * len(parameters) if "population" in result else 0
     group.attrs.update({
         "kind": kind, "title": title, "runs": len(parameters), **options, "mse_median": np.median(mse),

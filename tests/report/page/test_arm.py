@@ -26,7 +26,7 @@ def without_truth(file):
 
 
 class Arm(unittest.TestCase):
-    def test_the_sentence_says_how_well_an_unseen_motion_is_reproduced(self):
+    def test_the_sentence_says_how_well_a_validation_motion_is_reproduced(self):
         study = support.study("arm")
         error = study.estimators[1].validation_relerr_median
         verdict = words_of_arm.verdict(study)

@@ -53,7 +53,7 @@ def changed(kind, change):
 
 
 class Order(unittest.TestCase):
-    def test_unseen_recordings_come_first(self):
+    def test_validation_recordings_come_first(self):
         self.assertEqual(figures_of("replayed"), ["replay_2", "replay_2_velocity", "replay_1", "replay_1_velocity"])
         self.assertEqual([name for name, _ in words_of_replay.named_recordings(support.study("replayed_four").replay)],
                          ["replay_3", "replay_4", "replay_1", "replay_2"])
@@ -134,7 +134,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual(rows["lab_3.csv, validation", "torque (N m)"][3],
                          f"{q.number(one.torque.rms[0])} → {q.number(one.torque.rms[2])}")
 
-    def test_the_title_has_the_error_of_the_unseen_recording(self):
+    def test_the_title_has_the_error_of_the_validation_recording(self):
         error = support.study("replayed").replay.recordings[1].position.relerr
         self.assertEqual(words_of_replay.verdict(support.study("replayed"))["sentence"],
                          "On the validation recording lab_2.csv the simulated position is off by "

@@ -30,7 +30,7 @@ std::string job_for(std::string const& name) {
 }
 
 // relative error of wls on the validation rows that move one way, and on all
-std::pair<double, double> unseen_errors(std::string const& job) {
+std::pair<double, double> validation_errors(std::string const& job) {
   test::TemporaryFolder const folder;
   IdentifyOptions options;
   options.threads = {2, "test"};
@@ -41,9 +41,9 @@ std::pair<double, double> unseen_errors(std::string const& job) {
           result.attribute<double>("/runs/wls", "validation_relerr_all_rows")};
 }
 
-TEST(Panda, LeavesLittleUnseen) {
+TEST(Panda, LeavesLittleOfValidation) {
   SKIP_WITHOUT(test::recordings_folder() / "panda/panda_exciting_traj1.csv.gz");
-  auto const [one_way, all] = unseen_errors(job_for("panda.toml"));
+  auto const [one_way, all] = validation_errors(job_for("panda.toml"));
   EXPECT_LE(one_way, 0.015);
   EXPECT_LE(all, 0.02);
 }
@@ -56,15 +56,15 @@ std::string without_filter(std::string job) {
 
 TEST(Panda, LeavesAsLittleWithTheFilterThatTheRecordingAsksFor) {
   SKIP_WITHOUT(test::recordings_folder() / "panda/panda_exciting_traj1.csv.gz");
-  EXPECT_LE(unseen_errors(without_filter(job_for("panda.toml"))).first, 0.015);
+  EXPECT_LE(validation_errors(without_filter(job_for("panda.toml"))).first, 0.015);
 }
 
 TEST(Ur10e, LeavesAsLittleWithTheFilterThatTheRecordingAsksFor) {
   SKIP_WITHOUT(test::recordings_folder() / "ur10e/ident_20_02_05_20sec_8harm.csv.gz");
-  EXPECT_LE(unseen_errors(without_filter(job_for("ur10e.toml"))).first, 0.047);
+  EXPECT_LE(validation_errors(without_filter(job_for("ur10e.toml"))).first, 0.047);
 }
 
-TEST(Ur10e, LeavesLittleUnseenWhicheverRecordingIsLeftOut) {
+TEST(Ur10e, LeavesLittleOfValidationWhicheverRecordingIsLeftOut) {
   SKIP_WITHOUT(test::recordings_folder() / "ur10e/ident_20_02_05_20sec_8harm.csv.gz");
   std::string const a = "ident_20_02_05_20sec_8harm", b = "ident_20_02_10_30sec_12harm",
                     c = "ident_20_02_12_40sec_12harm";
@@ -74,7 +74,7 @@ TEST(Ur10e, LeavesLittleUnseenWhicheverRecordingIsLeftOut) {
     replace_all(job, left_out, "LEFT_OUT");
     replace_all(job, c, left_out == c ? "LEFT_OUT" : left_out);
     replace_all(job, "LEFT_OUT", c);
-    auto const [one_way, all] = unseen_errors(job);
+    auto const [one_way, all] = validation_errors(job);
     EXPECT_LE(one_way, 0.047) << left_out;
     EXPECT_LE(all, 0.08) << left_out;
     EXPECT_GE(all, one_way) << left_out;

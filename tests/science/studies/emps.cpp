@@ -41,11 +41,11 @@ TEST(Emps, GivesThePublishedParametersAndErrors) {
   EXPECT_NEAR(parameters[2], 20.4, 0.1);
   EXPECT_NEAR(parameters[3], -3.16, 0.03);
   double const train = result.attribute<double>("/runs/ols", "relerr_median");
-  double const unseen = result.attribute<double>("/runs/ols", "validation_relerr_median");
+  double const validation = result.attribute<double>("/runs/ols", "validation_relerr_median");
   EXPECT_GE(train, 0.040);
   EXPECT_LE(train, 0.041);
-  EXPECT_GE(unseen, 0.059);
-  EXPECT_LE(unseen, 0.060);
+  EXPECT_GE(validation, 0.059);
+  EXPECT_LE(validation, 0.060);
   // the population methods find the same optimum
   for (std::string const label : {"de", "fade"})
     EXPECT_NEAR(result.attribute<double>("/runs/" + label, "relerr_median"), train, 1e-5) << label;

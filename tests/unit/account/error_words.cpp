@@ -30,7 +30,7 @@ TEST(ReasonSentence, OfNothingMissingDoesNotCallAResidualAlikeThatDiffers) {
 }
 
 // a quarter of the energy between the error before and the floor: 2.7^2 - (2.7^2 - 1.1^2) / 4 = 2.40^2
-TEST(GainSentence, SaysWhereANameDoesNotBringTheUnseenErrorNearItsFloor) {
+TEST(GainSentence, SaysWhereANameDoesNotBringTheValidationErrorNearItsFloor) {
   JointDiagnosis joint = example::invented_diagnosis().joints[0];
   joint.validation_relerr = 0.027;
   joint.floor_relerr = 0.011;
@@ -88,7 +88,7 @@ TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Validation error 12.1 % to 5.2 %."));
 }
 
-TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind) {
+TEST(ReasonSentence, SaysWhateverTheVerdictThatTheValidationRecordingIsOfAnotherKind) {
   char const* said =
       "The validation recording holds something that the training recording does not show: error 18.4 % "
       "there, 0.82 % here.";

@@ -19,11 +19,11 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-JointDiagnosis joint_of_two_hundred_twins() {
+JointDiagnosis joint_of_two_hundred_replicates() {
   JointDiagnosis joint;
   joint.unit_position = "rad";
   joint.unit_torque = "N m";
-  joint.twins = 200;
+  joint.replicates = 200;
   return joint;
 }
 
@@ -83,7 +83,7 @@ TEST(ReasonSentence, SaysWhatIsLeftWhenMuchIsLeft) {
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("12.4 % of the mismatch's energy stays unexplained."));
 }
 
-TEST(ReasonSentence, UsesCrossValidationAndSaysSoWithoutAnUnseenRecording) {
+TEST(ReasonSentence, UsesCrossValidationAndSaysSoWithoutAnValidationRecording) {
   Diagnosis diagnosis = example::invented_diagnosis();
   diagnosis.joints[0].validation_relerr = unknown;
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Cross-validated error 12.0 % to 6.2 %"));
@@ -125,7 +125,7 @@ TEST(ReasonSentence, OfABadRecordingEndsWithTheWayOut) {
 }
 
 TEST(EffectSentence, FollowsTheSignOfFriction) {
-  JointDiagnosis const joint = joint_of_two_hundred_twins();
+  JointDiagnosis const joint = joint_of_two_hundred_replicates();
   NamedEffect effect = effect_of(*find_effect("stribeck"), 0.2);
   EXPECT_THAT(effect_sentence(joint, effect), StartsWith("Joint 1 loses 0.20 N m extra: Stribeck friction (p"));
   effect.parameters[0].value = -0.2;
@@ -134,11 +134,11 @@ TEST(EffectSentence, FollowsTheSignOfFriction) {
 
 TEST(EffectSentence, DoesNotSayASizeThatNoRowHasShown) {
   NamedEffect const effect = effect_of(*find_effect("stribeck"), 3.0);
-  EXPECT_THAT(effect_sentence(joint_of_two_hundred_twins(), effect), HasSubstr("loses up to 0.21 N m extra"));
+  EXPECT_THAT(effect_sentence(joint_of_two_hundred_replicates(), effect), HasSubstr("loses up to 0.21 N m extra"));
 }
 
 TEST(EffectSentence, TellsFaultsOfAChannelFromPhysics) {
-  JointDiagnosis const joint = joint_of_two_hundred_twins();
+  JointDiagnosis const joint = joint_of_two_hundred_replicates();
   EXPECT_THAT(effect_sentence(joint, effect_of(*find_effect("sensor_drift"), 0.1)),
               StartsWith("The torque channel of joint 1 is off by up to 0.21 N m, a fault of the recording:"));
   EXPECT_THAT(
@@ -156,7 +156,7 @@ TEST(EffectSentence, CallsNothingAFaultThatPhysicsExplainsAsWell) {
   EXPECT_EQ(is_fault(drift), find_effect("clipping")->acts_on() != ActsOn::joint);
   drift.equivalent = {"payload_change"};
   EXPECT_FALSE(is_fault(drift));
-  EXPECT_THAT(effect_sentence(joint_of_two_hundred_twins(), drift),
+  EXPECT_THAT(effect_sentence(joint_of_two_hundred_replicates(), drift),
               AllOf(StartsWith("The torque of joint 1 is off by up to 0.21 N m"), Not(HasSubstr("fault"))));
 }
 
@@ -180,7 +180,7 @@ TEST(EffectSentence, NamesAnEffectThatTheCatalogueDoesNotKnow) {
   effect.name = "some_new_thing";
   effect.acts_on = "joint";
   effect.peak = 0.5;
-  EXPECT_EQ(effect_sentence(joint_of_two_hundred_twins(), effect),
+  EXPECT_EQ(effect_sentence(joint_of_two_hundred_replicates(), effect),
             "Joint 1 deviates by up to 0.50 N m from the model: some new thing (p = 1.0).");
 }
 

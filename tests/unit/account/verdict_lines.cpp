@@ -22,7 +22,7 @@ NamedEffect effect_of(std::string const& name, std::string const& title) {
 
 JointDiagnosis joint_with(std::vector<NamedEffect> effects) {
   JointDiagnosis joint;
-  joint.twins = 200;
+  joint.replicates = 200;
   joint.effects = std::move(effects);
   joint.train_relerr = 0.05;
   joint.augmented_train_relerr = 0.01;

@@ -44,7 +44,7 @@ Eigen::MatrixXd basis_of(Eigen::MatrixXd const& columns) {
 }
 
 // residuals on the rows of each fold by a fit to the rows that are neither in it nor in its guard
-Eigen::MatrixXd unseen_residuals(Eigen::MatrixXd const& columns, Eigen::MatrixXd const& signals, FoldKind kind) {
+Eigen::MatrixXd validation_residuals(Eigen::MatrixXd const& columns, Eigen::MatrixXd const& signals, FoldKind kind) {
   Eigen::MatrixXd const basis = basis_of(columns);
   Eigen::MatrixXd residuals = Eigen::MatrixXd::Constant(signals.rows(), signals.cols(), 1e9);
   for (auto const& fold : folds(signals.rows(), guard, kind)) {
@@ -76,8 +76,8 @@ TEST(Score, LeavesWhatFitsWithoutEachFoldLeave) {
   for (auto const kind : {FoldKind::whole, FoldKind::interleaved}) {
     Score const score(of.base, of.signals, guard, kind);
     auto const group = orthonormal_group(of.law, score.basis(), {false});
-    Eigen::MatrixXd const before = unseen_residuals(of.base, of.signals, kind);
-    Eigen::MatrixXd const after = unseen_residuals(side_by_side(of.base, of.law), of.signals, kind);
+    Eigen::MatrixXd const before = validation_residuals(of.base, of.signals, kind);
+    Eigen::MatrixXd const after = validation_residuals(side_by_side(of.base, of.law), of.signals, kind);
     expect_near(score.left(), before.colwise().squaredNorm().transpose());
     expect_near(score.left_with(group), after.colwise().squaredNorm().transpose());
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -93,8 +93,8 @@ TEST(Score, GainIsTheFallOfTheLogarithmTimesIndependentSquares) {
     Score const score(of.base, of.signals, guard, kind);
     auto const group = orthonormal_group(of.law, score.basis(), {false});
     for (Eigen::Index k = 0; k < 2; ++k) {
-      Eigen::VectorXd const before = unseen_residuals(of.base, of.signals, kind).col(k);
-      Eigen::VectorXd const after = unseen_residuals(side_by_side(of.base, of.law), of.signals, kind).col(k);
+      Eigen::VectorXd const before = validation_residuals(of.base, of.signals, kind).col(k);
+      Eigen::VectorXd const after = validation_residuals(side_by_side(of.base, of.law), of.signals, kind).col(k);
       double const squares = effective_samples(after);
       EXPECT_LT(squares, 0.8 * static_cast<double>(rows));
       double const wanted = squares * std::log(before.squaredNorm() / after.squaredNorm());

@@ -127,13 +127,13 @@ TEST(ServoDecision, FindsADelayOfTheCommandAndFrictionOfTheLoad) {
 // validation better by least_fall than what is kept
 TEST(ServoDecision, KeepsNoLawThatAnotherMakesUseless) {
   LoopFacts const& facts = decided_with_both().facts;
-  double least_unseen = 1.0;
+  double least_validation = 1.0;
   for (auto const& step : facts.steps)
     for (auto const& move : step.moves)
-      if (move.refusal == MoveRefusal::none) least_unseen = std::min(least_unseen, move.after.both());
+      if (move.refusal == MoveRefusal::none) least_validation = std::min(least_validation, move.after.both());
   EXPECT_EQ(facts.kept.size(), 2u);
   double const least_fall = with_both().question().numbers.least_fall;
-  EXPECT_LE((1.0 - least_fall) * facts.final_validation.both(), least_unseen);
+  EXPECT_LE((1.0 - least_fall) * facts.final_validation.both(), least_validation);
   for (auto const& move : facts.kept) EXPECT_GT(move.gain, 100.0) << name_of(move.subject);
 }
 

@@ -70,7 +70,7 @@ TEST(ResultTable, HasNoTruthColumnForRealData) {
   EXPECT_THAT(result_table(summary, Ink()), Not(HasSubstr("truth")));
 }
 
-TEST(ResultTable, ShowsUnseenErrorsOnlyWhenThereIsUnseenData) {
+TEST(ResultTable, ShowsValidationErrorsOnlyWhenThereIsValidationData) {
   ResultSummary summary = crs_a465();
   EXPECT_THAT(result_table(summary, Ink()), Not(HasSubstr("validation")));
   summary.has_validation = true;

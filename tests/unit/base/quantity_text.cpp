@@ -54,16 +54,16 @@ TEST(QuantityText, AShareHasItsIntervalWhereOneIsKnown) {
   EXPECT_EQ(share_text(std::nan(""), 0.6, 0.79), "");
 }
 
-TEST(QuantityText, ProbabilitiesAreNeverZeroNorMoreExactThanTheTwins) {
+TEST(QuantityText, ProbabilitiesAreNeverZeroNorMoreExactThanTheReplicates) {
   double const least = 1.0 / 201.0;
   EXPECT_EQ(p_text(least, true, least), "p < 0.005");
-  EXPECT_EQ(p_text(1e-9, false, least), "p < 0.005");  // a tail that was continued beyond the twins
+  EXPECT_EQ(p_text(1e-9, false, least), "p < 0.005");  // a tail that was continued beyond the replicates
   EXPECT_EQ(p_text(0.0, true, 0.0), "p < 0.000001");
   EXPECT_EQ(p_text(0.4129, false, least), "p = 0.41");
   EXPECT_EQ(p_text(0.0149, false, least), "p = 0.015");
   EXPECT_EQ(p_text(1.0 / 61.0, true, 1.0 / 61.0), "p < 0.02");
   EXPECT_EQ(p_cell(0.0149, false, least), "0.015");
-  EXPECT_EQ(p_cell(least, false, least), "<0.005");  // no twin reached it: at most this
+  EXPECT_EQ(p_cell(least, false, least), "<0.005");  // no replicate reached it: at most this
 }
 
 }  // namespace quantity_text_test

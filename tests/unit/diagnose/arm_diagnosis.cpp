@@ -32,13 +32,13 @@ Diagnosis diagnosed(PlanarArm arm, int threads = 1) {
   std::vector<RecordedArm> const train{recorded(arm)};
   arm.pace = 0.87;
   arm.seed += 100;
-  std::vector<RecordedArm> const unseen{recorded(arm)};
+  std::vector<RecordedArm> const validation{recorded(arm)};
   std::vector<Effect const*> laws;
   for (auto const* name : {"load_dependent_friction", "cogging", "stribeck", "spring", "asymmetric_viscous"})
     laws.push_back(find_effect(name));
   std::vector<std::vector<Effect const*>> const candidates(2, laws);
   FilterOptions const filter = ten_hertz();
-  ArmDiagnosisInput input{model, train, unseen, candidates, filter, section};
+  ArmDiagnosisInput input{model, train, validation, candidates, filter, section};
   input.seed = 3;
   input.threads = threads;
   return diagnose_arm(input, {});

@@ -101,7 +101,7 @@ TEST(ClosedLaws, WhereNothingIsFoundOneDirectionIsToBlame) {
   EXPECT_THAT(diagnosis.reason, HasSubstr("both directions"));
 }
 
-TEST(UnseenSimulator, ACopyOfTheTrainingRecordingHasTheTrainingError) {
+TEST(ValidationSimulator, ACopyOfTheTrainingRecordingHasTheTrainingError) {
   auto const joint = clean_joint();
   Recording recording = recorded(simulate_joint(joint.plan, 31));
   FilterOptions options;

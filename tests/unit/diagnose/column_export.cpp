@@ -82,12 +82,12 @@ TEST_F(ColumnExportTest, EveryCandidateIsListedOnce) {
   EXPECT_EQ(result.candidates.size() + result.not_testable.size(), 4u);
 }
 
-TEST_F(ColumnExportTest, TheUnseenRecordingHasTheSameColumns) {
+TEST_F(ColumnExportTest, TheValidationRecordingHasTheSameColumns) {
   ColumnExport const result = exported(1);
   ASSERT_EQ(result.validate.size(), 1u);
-  auto const& unseen = result.validate.front();
-  ASSERT_EQ(unseen.candidates.size(), result.candidates.size());
-  EXPECT_LT(unseen.torque.size(), result.train.torque.size());
+  auto const& validation = result.validate.front();
+  ASSERT_EQ(validation.candidates.size(), result.candidates.size());
+  EXPECT_LT(validation.torque.size(), result.train.torque.size());
   // what was fitted in training holds there
   for (std::size_t i = 0; i < result.candidates.size(); ++i) {
     if (result.candidates[i].effect->name() != "stribeck") continue;
@@ -96,9 +96,10 @@ TEST_F(ColumnExportTest, TheUnseenRecordingHasTheSameColumns) {
     fitted << train_record.regressor, train_record.candidates[i];
     Eigen::VectorXd const parameters = test::least_squares(fitted, train_record.torque);
     Eigen::VectorXd const baseline = test::least_squares(train_record.regressor, train_record.torque);
-    Eigen::MatrixXd seen(unseen.torque.size(), fitted.cols());
-    seen << unseen.regressor, unseen.candidates[i];
-    EXPECT_LT((unseen.torque - seen * parameters).norm(), 0.5 * (unseen.torque - unseen.regressor * baseline).norm());
+    Eigen::MatrixXd seen(validation.torque.size(), fitted.cols());
+    seen << validation.regressor, validation.candidates[i];
+    EXPECT_LT((validation.torque - seen * parameters).norm(),
+              0.5 * (validation.torque - validation.regressor * baseline).norm());
   }
 }
 

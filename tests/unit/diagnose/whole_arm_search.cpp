@@ -98,14 +98,14 @@ class WholeArmSearch : public testing::Test {
     return (pose * chain.flange).position;
   }
 
-  WholeArmAnswer answer(std::vector<RecordedArm> const& train, std::vector<RecordedArm> const& unseen,
+  WholeArmAnswer answer(std::vector<RecordedArm> const& train, std::vector<RecordedArm> const& validation,
                         int threads = 1) const {
-    return found_in(input(train, unseen, threads), learnt(input(train, unseen, threads)));
+    return found_in(input(train, validation, threads), learnt(input(train, validation, threads)));
   }
 
-  ArmDiagnosisInput input(std::vector<RecordedArm> const& train, std::vector<RecordedArm> const& unseen,
+  ArmDiagnosisInput input(std::vector<RecordedArm> const& train, std::vector<RecordedArm> const& validation,
                           int threads = 1) const {
-    ArmDiagnosisInput asked{model, train, unseen, candidates, filter, section};
+    ArmDiagnosisInput asked{model, train, validation, candidates, filter, section};
     asked.seed = 11;
     asked.threads = threads;
     return asked;
@@ -153,25 +153,25 @@ TEST_F(WholeArmSearch, FindsAPayloadItsInstantAndItsParameters) {
   EXPECT_NEAR(one.values[1], 1.5 * 0.2, 4.0 * one.errors[1] + 1e-3);
   EXPECT_NEAR(one.values[2], 0.0, 4.0 * one.errors[2] + 1e-3);
   EXPECT_GT(one.explained, 0.9);
-  ASSERT_EQ(one.unseen_times.size(), 1u);
-  EXPECT_FALSE(one.unseen_times[0]) << "the other recording is without it";
-  EXPECT_LT(one.unseen_after, one.unseen_before);
+  ASSERT_EQ(one.validation_times.size(), 1u);
+  EXPECT_FALSE(one.validation_times[0]) << "the other recording is without it";
+  EXPECT_LT(one.validation_after, one.validation_before);
 }
 
 // picked up at another instant, and put down again
-TEST_F(WholeArmSearch, GivesAPayloadInstantsOfItsOwnInUnseenRecordings) {
+TEST_F(WholeArmSearch, GivesAPayloadInstantsOfItsOwnInValidationRecordings) {
   auto const found = answer({recorded({chain, 1.5, 11.0, 1e9}, 1)},
                             {recorded({chain, 1.5, 19.0, 1e9}, 2), recorded({chain, 1.5, 6.0, 14.0}, 3)});
   ASSERT_EQ(found.accepted.size(), 1u);
   auto const& one = found.accepted.front();
   EXPECT_EQ(one.law.effect->name(), "payload_picked_up");
-  ASSERT_EQ(one.unseen_times.size(), 2u);
-  ASSERT_TRUE(one.unseen_times[0] && one.unseen_times[1]);
-  EXPECT_NEAR(one.unseen_times[0]->from_s, 19.0, 0.15);
-  EXPECT_TRUE(std::isinf(one.unseen_times[0]->until_s));
-  EXPECT_NEAR(one.unseen_times[1]->from_s, 6.0, 0.15);
-  EXPECT_NEAR(one.unseen_times[1]->until_s, 14.0, 0.15);
-  EXPECT_LT(one.unseen_after, 0.3 * one.unseen_before);
+  ASSERT_EQ(one.validation_times.size(), 2u);
+  ASSERT_TRUE(one.validation_times[0] && one.validation_times[1]);
+  EXPECT_NEAR(one.validation_times[0]->from_s, 19.0, 0.15);
+  EXPECT_TRUE(std::isinf(one.validation_times[0]->until_s));
+  EXPECT_NEAR(one.validation_times[1]->from_s, 6.0, 0.15);
+  EXPECT_NEAR(one.validation_times[1]->until_s, 14.0, 0.15);
+  EXPECT_LT(one.validation_after, 0.3 * one.validation_before);
 }
 
 TEST_F(WholeArmSearch, FindsAForceForAWhile) {
@@ -201,7 +201,7 @@ TEST_F(WholeArmSearch, FindsATiltedBaseAndAWrongZero) {
   EXPECT_EQ(of_zero.accepted.front().law.effect->name(), "joint_zero");
   EXPECT_EQ(of_zero.accepted.front().law.joint, std::optional<std::size_t>(1));
   EXPECT_NEAR(of_zero.accepted.front().values[0], 0.05, 0.005);
-  EXPECT_LT(of_zero.accepted.front().unseen_after, 0.5 * of_zero.accepted.front().unseen_before);
+  EXPECT_LT(of_zero.accepted.front().validation_after, 0.5 * of_zero.accepted.front().validation_before);
 }
 
 TEST_F(WholeArmSearch, SaysNothingOfAnArmThatStandsStill) {

@@ -1,5 +1,5 @@
-// Twins that go side by side are each what they would be alone, to the last bit: every lane has a motion and a memory
-// of its own.
+// Replicates that go side by side are each what they would be alone, to the last bit: every lane has a motion and a
+// memory of its own.
 
 #include <gtest/gtest.h>
 

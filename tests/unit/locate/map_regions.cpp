@@ -19,8 +19,8 @@ std::vector<double> edges() {
   return result;
 }
 
-Eigen::MatrixXd normals(Eigen::Index twins, std::uint32_t set) {
-  Eigen::MatrixXd values(n_cells, twins + 1);
+Eigen::MatrixXd normals(Eigen::Index replicates, std::uint32_t set) {
+  Eigen::MatrixXd values(n_cells, replicates + 1);
   RandomStream stream({31, set, RandomDomain::test}, 0, 0);
   for (double& value : values.reshaped()) value = stream.normal();
   return values;
@@ -59,7 +59,7 @@ TEST(UnusualRuns, WeakCellsAloneAreNone) {
   EXPECT_TRUE(runs_of(values).empty());
 }
 
-TEST(UnusualRuns, BelowTheTwinsIsNothingInASpectrum) {
+TEST(UnusualRuns, BelowTheReplicatesIsNothingInASpectrum) {
   Eigen::MatrixXd values = normals(200, 9);
   values.col(0).setZero();
   values(4, 0) = -12.0;
@@ -67,11 +67,11 @@ TEST(UnusualRuns, BelowTheTwinsIsNothingInASpectrum) {
   EXPECT_EQ(runs_of(values, Tail::both).size(), 1u);
 }
 
-TEST(UnusualRuns, FewerThanNineteenTwinsCarryNoClaim) {
-  for (Eigen::Index twins : {8, 18, 19}) {
-    Eigen::MatrixXd values = normals(twins, 10);
+TEST(UnusualRuns, FewerThanNineteenReplicatesCarryNoClaim) {
+  for (Eigen::Index replicates : {8, 18, 19}) {
+    Eigen::MatrixXd values = normals(replicates, 10);
     values(4, 0) = 1e3;
-    EXPECT_EQ(runs_of(values).empty(), twins < 19);
+    EXPECT_EQ(runs_of(values).empty(), replicates < 19);
   }
 }
 

@@ -94,23 +94,23 @@ TEST(MismatchMap, CellHoldsTheMeansOfItsRows) {
   auto const map = mismatch_map(rows, made.scales, 1);
   MapCell const& cell = cell_at(axis_of(map, SignatureAxis::load), 1.0);
   double sum = 0.0;
-  Eigen::RowVectorXd twins = Eigen::RowVectorXd::Zero(20);
+  Eigen::RowVectorXd replicates = Eigen::RowVectorXd::Zero(20);
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
     double const direction = rows.dq[i] > 0.0 ? 1.0 : -1.0, load = direction * rows.load_torque[i];
     if (load < cell.from || load >= cell.to) continue;
     sum += direction * rows.residual[i];
-    twins += direction * rows.twins.row(i);
+    replicates += direction * rows.replicates.row(i);
     ++count;
   }
   ASSERT_GT(count, 0);
-  twins /= static_cast<double>(count);
-  double const std = std::sqrt((twins.array() - twins.mean()).square().sum() / 19.0);
+  replicates /= static_cast<double>(count);
+  double const std = std::sqrt((replicates.array() - replicates.mean()).square().sum() / 19.0);
   EXPECT_EQ(cell.samples, count);
   EXPECT_NEAR(cell.mean_residual, sum / static_cast<double>(count), 1e-12);
-  EXPECT_NEAR(cell.twin_mean, twins.mean(), 1e-12);
-  EXPECT_NEAR(cell.twin_std, std, 1e-12);
-  EXPECT_NEAR(cell.z, (cell.mean_residual - cell.twin_mean) / (std * std::sqrt(1.0 + 1.0 / 20.0)), 1e-9);
+  EXPECT_NEAR(cell.replicate_mean, replicates.mean(), 1e-12);
+  EXPECT_NEAR(cell.replicate_std, std, 1e-12);
+  EXPECT_NEAR(cell.z, (cell.mean_residual - cell.replicate_mean) / (std * std::sqrt(1.0 + 1.0 / 20.0)), 1e-9);
 }
 
 TEST(MismatchMap, AnOddBumpOfSpeedLiesOnBothSidesOfStandstill) {
@@ -208,13 +208,13 @@ TEST(MismatchMap, FrictionUnderLoadIsReadAlongTheMotion) {
   EXPECT_NEAR(axis_of(found.map, SignatureAxis::load).energy_share, found.share, 0.15 * found.share);
 }
 
-TEST(MismatchMap, WhatAllTwinsHaveIsNoMismatch) {
+TEST(MismatchMap, WhatAllReplicatesHaveIsNoMismatch) {
   auto made = synthetic_rows({2000, 100.0, 99, 0.0, 3});
   auto const before = mismatch_map(made.rows, made.scales, 1);
   Eigen::VectorXd const artefact = 5.0 * (-(made.rows.dq.array() / 0.3).square()).exp() * made.rows.dq.array().sign();
   made.rows.residual += artefact;
-  made.rows.twins.colwise() += artefact;
-  made.rows.twin_mean += artefact;
+  made.rows.replicates.colwise() += artefact;
+  made.rows.replicate_mean += artefact;
   auto const after = mismatch_map(made.rows, made.scales, 1);
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_NEAR(after[i].p, before[i].p, 1e-12) << before[i].axis;
@@ -228,7 +228,7 @@ TEST(MismatchMap, AfterIsReadInTheSameCellsFromOtherRows) {
   });
   for (MapAxis const& axis : found.map)
     for (MapCell const& cell : axis.cells) EXPECT_TRUE(std::isnan(cell.after_z));
-  // another mask and number of twins, everything explained
+  // another mask and number of replicates, everything explained
   auto const after = synthetic_rows({3500, 100.0, 60, 0.5, 9});
   auto const alone = mismatch_map(after.rows, after.scales, 1);
   add_after(found.map, after.rows);
@@ -265,7 +265,7 @@ TEST(MismatchMap, IsTheSameBitForBitForAnyNumberOfThreads) {
   }
 }
 
-TEST(MismatchMap, EightTwinsAreEnoughForAMapWithoutRegions) {
+TEST(MismatchMap, EightReplicatesAreEnoughForAMapWithoutRegions) {
   auto made = synthetic_rows({1500, 100.0, 8, 0.5});
   made.plant([](MismatchRows const& rows, Eigen::Index i) { return std::copysign(1.0, rows.dq[i]); });
   for (MapAxis const& axis : mismatch_map(made.rows, made.scales, 1)) {
@@ -274,7 +274,7 @@ TEST(MismatchMap, EightTwinsAreEnoughForAMapWithoutRegions) {
   }
 }
 
-TEST(MismatchMap, TakesWellUnderTheTimeOfTheTwins) {
+TEST(MismatchMap, TakesWellUnderTheTimeOfTheReplicates) {
   auto const made = synthetic_rows({12300, 200.0, 200});
   ASSERT_GT(made.rows.size(), 12000);
   auto const start = std::chrono::steady_clock::now();

@@ -13,7 +13,7 @@ namespace torquescope {
 namespace mismatch_map_null_test {
 
 constexpr int recordings = 400;
-constexpr Eigen::Index twins = 99;
+constexpr Eigen::Index replicates = 99;
 // four binomial standard errors
 double const tolerance = 4.0 * std::sqrt(recordings * 0.05 * 0.95);
 
@@ -24,7 +24,7 @@ struct Count {
 std::array<Count, map_axes.size()> count_clean(double memory) {
   std::array<Count, map_axes.size()> counts;
   for (std::uint32_t set = 0; set < recordings; ++set) {
-    auto const made = test::synthetic_rows({1000, 100.0, twins, memory, set});
+    auto const made = test::synthetic_rows({1000, 100.0, replicates, memory, set});
     auto const map = mismatch_map(made.rows, made.scales, 1);
     for (std::size_t i = 0; i < counts.size(); ++i) {
       counts[i].small_p += map[i].p <= 0.05;
@@ -47,7 +47,7 @@ TEST_P(CleanRecordings, AreRejectedOnceInTwentyOnEveryAxis) {
     EXPECT_NEAR(counts[i].small_p, 0.05 * recordings, tolerance);
     EXPECT_NEAR(counts[i].below_half, 0.5 * recordings, 4.0 * std::sqrt(recordings * 0.25));
     EXPECT_LE(counts[i].with_regions, 0.07 * recordings);
-    // energy is skewed: more than half of the recordings have less than the twins' average, and show none
+    // energy is skewed: more than half of the recordings have less than the replicates' average, and show none
     EXPECT_GT(counts[i].without_share, 0.5 * recordings - tolerance);
     EXPECT_LT(counts[i].without_share, 0.75 * recordings);
   }

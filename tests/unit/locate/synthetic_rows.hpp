@@ -1,9 +1,9 @@
 #pragma once
-// Rows of a made-up recording and its clean twins: known noise on a known motion, so that every planted mismatch is
+// Rows of a made-up recording and its replicates: known noise on a known motion, so that every planted mismatch is
 // known.
 //
 // Motion     two sines of the position that share no period; rows at standstill are masked
-// Noise      first-order autoregression in time with variance 1, gaps included; recording and twins alike
+// Noise      first-order autoregression in time with variance 1, gaps included; recording and replicates alike
 // Units      rad, N m
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace torquescope::test {
 struct SyntheticPlan {
   Eigen::Index samples = 3000;  // kept, before the mask
   double rate_hz = 100.0;
-  Eigen::Index twins = 200;
+  Eigen::Index replicates = 200;
   double memory = 0.0;    // of the noise: correlation of neighbours
   std::uint32_t set = 0;  // another recording
 };
@@ -80,9 +80,10 @@ inline SyntheticRows synthetic_rows(SyntheticPlan const& plan) {
   rows.since_torque_reversal = since_torque(rows.kept_rows);
   rows.residual = synthetic_noise(plan, 0)(rows.kept_rows);
   rows.torque = rows.model_torque + rows.residual;
-  rows.twins.resize(rows.residual.size(), plan.twins);
-  for (Eigen::Index t = 0; t < plan.twins; ++t) rows.twins.col(t) = synthetic_noise(plan, t + 1)(rows.kept_rows);
-  rows.twin_mean = rows.twins.rowwise().mean();
+  rows.replicates.resize(rows.residual.size(), plan.replicates);
+  for (Eigen::Index t = 0; t < plan.replicates; ++t)
+    rows.replicates.col(t) = synthetic_noise(plan, t + 1)(rows.kept_rows);
+  rows.replicate_mean = rows.replicates.rowwise().mean();
 
   JointScales& scales = made.scales;
   scales.duration_s = static_cast<double>(plan.samples) / plan.rate_hz;

@@ -36,8 +36,8 @@ TEST(WaveSpectrum, EqualsLeastSquaresAtEveryFrequencyInSpiteOfGaps) {
     double const hz = grid.spacing * static_cast<double>(bands[i].first);
     Eigen::VectorXd const phase = two_pi * hz * rows.time_s;
     auto const row = static_cast<Eigen::Index>(i);
-    EXPECT_NEAR(energies(row, 0), explained(rows.residual - rows.twin_mean, phase), 1e-8) << hz;
-    EXPECT_NEAR(energies(row, 9), factor * explained(rows.twins.col(8) - rows.twin_mean, phase), 1e-8) << hz;
+    EXPECT_NEAR(energies(row, 0), explained(rows.residual - rows.replicate_mean, phase), 1e-8) << hz;
+    EXPECT_NEAR(energies(row, 9), factor * explained(rows.replicates.col(8) - rows.replicate_mean, phase), 1e-8) << hz;
   }
 }
 
@@ -46,7 +46,7 @@ TEST(WaveSpectrum, EqualsLeastSquaresInPositionUpToItsGrid) {
   MismatchRows& rows = made.rows;
   WaveGrid const grid = position_waves(rows, 60.0);
   // no noise: what the grid loses of a wave must be seen
-  rows.twin_mean.setZero();
+  rows.replicate_mean.setZero();
   for (Eigen::Index wave : {grid.first, (grid.first + grid.last) / 2, grid.last}) {
     double const order = grid.spacing * static_cast<double>(wave);
     rows.residual = (order * rows.q.array() + 0.3).cos();
@@ -61,7 +61,7 @@ TEST(WaveSpectrum, EqualsLeastSquaresInPositionUpToItsGrid) {
 TEST(WaveSpectrum, ALineKeepsItsEnergyInItsWindow) {
   auto made = test::synthetic_rows({3000, 100.0, 8});
   MismatchRows& rows = made.rows;
-  rows.twin_mean.setZero();
+  rows.replicate_mean.setZero();
   rows.residual = (two_pi * 7.13 * rows.time_s.array()).sin();
   WaveGrid const grid = time_waves(rows, 40.0);
   auto const windows = third_octaves(grid);

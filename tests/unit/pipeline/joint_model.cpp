@@ -1,4 +1,4 @@
-// The model of a diagnosis is its baseline and its effects side by side, and simulates what it fits: a twin of the
+// The model of a diagnosis is its baseline and its effects side by side, and simulates what it fits: a replicate of the
 // model gives its parameters back, and is fitted like a joint that a simulator of another kind made.
 
 #include "engine/infer/pipeline/joint_model.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "engine/data/encoder_step.hpp"
-#include "engine/simulate/clean_twin.hpp"
+#include "engine/simulate/replicate_simulator.hpp"
 #include "unit/pipeline/clean_records.hpp"
 
 using namespace torquescope;
@@ -30,10 +30,10 @@ TEST(RecordedLoop, FedByItsTorqueStandsAtReversalsAsLongAsRecorded) {
   Recording const recording = test::recorded(simulate_joint(joint.plan, 5));
   double const step = encoder_step(recording), recorded = standing(recording.position, step);
   ASSERT_GT(recorded, 0.03);
-  TwinJoint const twin = make_twin_joint(test::clean_regressor(), joint.truth);
+  ReplicateJoint const replicate = make_replicate_joint(test::clean_regressor(), joint.truth);
   auto const stands = [&](RecordedLoop const& loop) {
-    TwinGroup group;
-    CleanTwin(twin, loop.loop, loop.track, 1e-4).simulate({1, 0, 0}, 0, group);
+    ReplicateGroup group;
+    ReplicateSimulator(replicate, loop.loop, loop.track, 1e-4).simulate({1, 0, 0}, 0, group);
     EXPECT_FALSE(group.ran_away[0]);
     return standing(group.position[0], step);
   };
@@ -49,12 +49,12 @@ TEST(RecordedLoop, FedByItsTorqueDoesNotFeelTheEncoder) {
   RecordedLoop fed =
       torque_fed_loop(test::recorded(simulate_joint(joint.plan, 5)), joint.truth[0], test::clean_filter());
   fed.loop.torque_noise = {};
-  TwinJoint const twin = make_twin_joint(test::clean_regressor(), joint.truth);
+  ReplicateJoint const replicate = make_replicate_joint(test::clean_regressor(), joint.truth);
   auto const torque = [&](double step) {
     fed.loop.encoder_step = step;
     fed.track.start_position = 0.0;
-    TwinGroup group;
-    CleanTwin(twin, fed.loop, fed.track, 1e-4).simulate({1, 0, 0}, 0, group);
+    ReplicateGroup group;
+    ReplicateSimulator(replicate, fed.loop, fed.track, 1e-4).simulate({1, 0, 0}, 0, group);
     return group.torque[0];
   };
   Eigen::VectorXd const fine = torque(1e-12), coarse = torque(2e-4);

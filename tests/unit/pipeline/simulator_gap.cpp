@@ -110,17 +110,17 @@ TEST(SimulatorGap, ASimulatorWithPhysicsTheJointLacksShowsToo) {
   EXPECT_GT(gap.beyond_rms, 0.01);
 }
 
-// what the simulator holds beyond the model's terms leaves an unseen recording as it leaves the training one
-TEST(SimulatorGap, TakesTheSameOfACopyGivenAsUnseen) {
+// what the simulator holds beyond the model's terms leaves a validation recording as it leaves the training one
+TEST(SimulatorGap, TakesTheSameOfACopyGivenAsValidation) {
   auto [recording, motion, truth] = bench();
   recording.simulated_torque = simulator(motion, 0.9 * truth) + 0.4 * motion.q;
   recording.torque += 0.4 * motion.q;
   auto const pipeline = clean_pipeline(recording);
   auto const gap = gap_to_simulator(recording, pipeline);
-  Recording const unseen = without_simulator(recording, pipeline, gap.simulator_parameters);
-  EXPECT_EQ(unseen.torque, gap.recording.torque);
-  EXPECT_EQ(unseen.gear_load, gap.recording.gear_load);
-  EXPECT_EQ(unseen.simulated_torque.size(), 0);
+  Recording const validation = without_simulator(recording, pipeline, gap.simulator_parameters);
+  EXPECT_EQ(validation.torque, gap.recording.torque);
+  EXPECT_EQ(validation.gear_load, gap.recording.gear_load);
+  EXPECT_EQ(validation.simulated_torque.size(), 0);
 
   Recording plain = recording;
   plain.simulated_torque.resize(0);

@@ -91,12 +91,12 @@ TEST(ConsistentFit, OfAShortNoisyRecordingIsOfBodiesAndPredictsBetterThanLeastSq
   int impossible = 0;
   double wls_error = 0.0, our_error = 0.0;
   for (std::uint32_t draw = 20; draw < 28; ++draw) {
-    auto const data = recorded(model, 70, 2.0, draw), unseen = recorded(model, 400, 0.0, draw + 100);
+    auto const data = recorded(model, 70, 2.0, draw), validation = recorded(model, 400, 0.0, draw + 100);
     auto const wls = fitted("wls", data), ours = fitted("consistent", data);
     expect_bodies(ours);
     impossible += distance_of_bodies(model, wls) > 1.0;
-    wls_error += (unseen.tau - unseen.phi * wls.parameters).norm();
-    our_error += (unseen.tau - unseen.phi * ours.parameters).norm();
+    wls_error += (validation.tau - validation.phi * wls.parameters).norm();
+    our_error += (validation.tau - validation.phi * ours.parameters).norm();
   }
   EXPECT_GE(impossible, 6);
   EXPECT_LT(our_error, wls_error);

@@ -52,7 +52,7 @@ double expected_at(RolloutTrack const& track, double tick) {
 
 std::vector<double> delays() {
   std::vector<double> ticks;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) ticks.push_back(0.37 * static_cast<double>(lane));
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) ticks.push_back(0.37 * static_cast<double>(lane));
   ticks[3] = 8.0;
   ticks[5] = 500.0;  // longer than the segment
   return ticks;
@@ -66,11 +66,11 @@ TEST(ChunkInputs, ShowEachLaneTheReferenceByItsOwnDelay) {
     for (std::size_t const begin : {0u, 1u, 37u, 100u}) {
       std::size_t const ticks = std::min<std::size_t>(60, samples * ticks_per_sample - begin);
       TickInputs const in = inputs.at(begin, ticks);
-      ASSERT_EQ(in.goal_stride, twin_lanes);
+      ASSERT_EQ(in.goal_stride, replicate_lanes);
       for (std::size_t row = 0; row < ticks; ++row)
-        for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-          ASSERT_NEAR(in.goal[row * twin_lanes + lane], expected_at(of, static_cast<double>(begin + row) - delay[lane]),
-                      1e-13)
+        for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
+          ASSERT_NEAR(in.goal[row * replicate_lanes + lane],
+                      expected_at(of, static_cast<double>(begin + row) - delay[lane]), 1e-13)
               << begin << " " << row << " " << lane;
     }
   }
@@ -79,7 +79,7 @@ TEST(ChunkInputs, ShowEachLaneTheReferenceByItsOwnDelay) {
 TEST(ChunkInputs, ShowAllLanesOneReferenceWhereTheyAreAlikeLate) {
   RolloutTrack const of = track(true);
   for (double const late : {0.0, 2.6}) {
-    ChunkInputs inputs(of, of.segments[0], std::vector<double>(twin_lanes, late));
+    ChunkInputs inputs(of, of.segments[0], std::vector<double>(replicate_lanes, late));
     TickInputs const in = inputs.at(16, 50);
     ASSERT_EQ(in.goal_stride, 1u);
     for (std::size_t row = 0; row < 50; ++row)
@@ -108,7 +108,7 @@ TEST(ChunkInputs, HoldTheOtherChannelsFromSampleToSample) {
 TEST(ChunkInputs, WithoutAReferenceStayWhereTheSegmentBegins) {
   RolloutTrack of = track(false);
   of.reference.resize(0);
-  ChunkInputs inputs(of, of.segments[0], std::vector<double>(twin_lanes, 0.0));
+  ChunkInputs inputs(of, of.segments[0], std::vector<double>(replicate_lanes, 0.0));
   for (std::size_t row = 0; row < 8; ++row) EXPECT_EQ(inputs.at(0, 8).goal[row], 0.4);
 }
 

@@ -85,9 +85,9 @@ void expect_no_neighbours(RolloutTrack const& track) {
   // sixteen at a time, at places of their own
   for (std::size_t first = 0; first < all.size(); first += 5) {
     std::vector<RolloutTrial> together;
-    for (std::size_t i = 0; i < twin_lanes; ++i) together.push_back(all[(first + 7 * i) % all.size()]);
+    for (std::size_t i = 0; i < replicate_lanes; ++i) together.push_back(all[(first + 7 * i) % all.size()]);
     Rolled const beside = rolled(track, structure, together);
-    for (std::size_t i = 0; i < twin_lanes; ++i) {
+    for (std::size_t i = 0; i < replicate_lanes; ++i) {
       auto const lane = static_cast<Eigen::Index>(i);
       Rolled const alone = rolled(track, structure, {together[i]});
       std::size_t const which = (first + 7 * i) % all.size();
@@ -109,10 +109,10 @@ TEST(LaneBits, DoNotDependOnTheNeighboursTickByTick) {
   RolloutStructure structure = structure_of({});
   structure.effects = {find_effect("cogging")};
   auto all = trials();
-  all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(twin_lanes));
+  all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(replicate_lanes));
   for (auto& trial : all) trial.effects = {{0.0, 0.0, 7.0}};
   Rolled const beside = rolled(track, structure, all);
-  for (std::size_t i = 0; i < twin_lanes; ++i) {
+  for (std::size_t i = 0; i < replicate_lanes; ++i) {
     Rolled const alone = rolled(track, structure, {all[i]});
     EXPECT_TRUE(same_bits(beside.position.col(static_cast<Eigen::Index>(i)), alone.position)) << i;
     EXPECT_TRUE(same_bits(beside.torque.col(static_cast<Eigen::Index>(i)), alone.torque)) << i;
@@ -137,7 +137,7 @@ TEST(LaneBits, OfLostAndImpossibleNeighboursTouchNobody) {
 TEST(LaneBits, AreTheSameOnEveryInstructionSet) {
   RolloutTrack const track = known_track();
   auto const all = trials();
-  auto const lanes = static_cast<std::ptrdiff_t>(twin_lanes);
+  auto const lanes = static_cast<std::ptrdiff_t>(replicate_lanes);
   // controllers of joints, and servos
   for (auto const& some : {std::vector(all.begin(), all.begin() + lanes), std::vector(all.end() - lanes, all.end())}) {
     Rolled const best = rolled(track, structure_of({}), some);

@@ -23,7 +23,7 @@ struct Limits {
 // the goal of lane 0 at every tick, of lanes whose profiles differ
 std::vector<double> led(std::vector<double> const& wanted, Limits const& limits, double from = 0.0) {
   LaneLoops loops(tick_s, 1);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     LoopNumbers numbers;
     double const times = 1.0 + static_cast<double>(lane);
     numbers.goal_speed = limits.speed * times;
@@ -32,12 +32,12 @@ std::vector<double> led(std::vector<double> const& wanted, Limits const& limits,
   }
   LaneState joint;
   LaneLoopState loop;
-  double goal[twin_lanes], speed[twin_lanes] = {}, held[twin_lanes], logged[twin_lanes];
-  std::fill_n(goal, twin_lanes, from);
+  double goal[replicate_lanes], speed[replicate_lanes] = {}, held[replicate_lanes], logged[replicate_lanes];
+  std::fill_n(goal, replicate_lanes, from);
   loop.start(loops, joint, goal, 0.0);
   std::vector<double> goals{from};
   for (double const one : wanted) {
-    std::fill_n(goal, twin_lanes, one);
+    std::fill_n(goal, replicate_lanes, one);
     answer_tick(loops, {goal}, 0, joint.q, speed, loop, held, logged);
     goals.push_back(loop.goal[0]);
   }

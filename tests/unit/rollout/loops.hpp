@@ -88,7 +88,7 @@ inline Rolled rolled(RolloutTrack const& track, RolloutStructure const& structur
   roll_out(track, structure, trials, [&](RolloutRows const& rows) {
     for (Eigen::Index k = 0; k < rows.samples; ++k)
       for (Eigen::Index lane = 0; lane < lanes; ++lane) {
-        auto const at = static_cast<std::size_t>(k) * twin_lanes + static_cast<std::size_t>(lane);
+        auto const at = static_cast<std::size_t>(k) * replicate_lanes + static_cast<std::size_t>(lane);
         all.position(rows.first + k, lane) = rows.position[at];
         all.velocity(rows.first + k, lane) = rows.velocity[at];
         all.torque(rows.first + k, lane) = rows.torque[at];

@@ -186,9 +186,9 @@ TEST(ServoLanes, ComeToAGearThatRubsWithoutTicks) {
 // the bell of a Stribeck friction is that of the header, and within 0.03 of the exponential one
 TEST(ServoLanes, FallFromStickingToSlidingByTheBell) {
   LaneGears gears;
-  alignas(64) double motor[twin_lanes], weight[twin_lanes], speed[twin_lanes], friction[twin_lanes];
-  alignas(64) double sine[twin_lanes], cosine[twin_lanes];
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  alignas(64) double motor[replicate_lanes], weight[replicate_lanes], speed[replicate_lanes], friction[replicate_lanes];
+  alignas(64) double sine[replicate_lanes], cosine[replicate_lanes];
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     gears.set(lane, {0.1, 0.05, 0.3, 0.2, 0.4, 0.5, 0.07, -0.02});
     motor[lane] = 0.3 * static_cast<double>(lane) - 2.0;
     weight[lane] = 1.1 - 0.1 * static_cast<double>(lane);
@@ -198,7 +198,7 @@ TEST(ServoLanes, FallFromStickingToSlidingByTheBell) {
   }
   ASSERT_TRUE(gears.any);
   gear_friction(gears, motor, weight, speed, sine, cosine, friction);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     double const l = 0.5 * std::abs(motor[lane] + weight[lane]), x = speed[lane] / 0.4;
     double const bell = std::pow(1.0 + x * x / 16.0, -16.0);
     double const of_angle = 0.07 * cosine[lane] - 0.02 * sine[lane];

@@ -63,13 +63,13 @@ TEST(ExactMotion, OrthogonalNoiseGivesTheSeedsOwnRowAndError) {
   }
 }
 
-TEST(ExactMotion, UnseenDataOfTheStudyHasNoiseOfTheSameSizeButNotOrthogonal) {
+TEST(ExactMotion, ValidationDataOfTheStudyHasNoiseOfTheSameSizeButNotOrthogonal) {
   auto plan = seed_plan();
   plan.noise.orthogonal_mse = 0.09259;
-  auto const unseen = simulate_joint(plan, 42, 1);
-  double const mse = (unseen.torque - unseen.true_torque).squaredNorm() / 2000.0;
+  auto const validation = simulate_joint(plan, 42, 1);
+  double const mse = (validation.torque - validation.true_torque).squaredNorm() / 2000.0;
   EXPECT_NEAR(mse, 0.09259, 5.0 * 0.09259 * std::sqrt(2.0 / 2000.0));
-  EXPECT_GT(std::abs(least_squares(unseen).parameters[2] / seed_parameters[2] - 1.0), 1e-3);
+  EXPECT_GT(std::abs(least_squares(validation).parameters[2] / seed_parameters[2] - 1.0), 1e-3);
 }
 
 TEST(ExactMotion, StaysWithinTheArmsLimitsAndUsesThem) {

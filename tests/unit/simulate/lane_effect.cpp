@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "engine/simulate/clean_twin.hpp"
+#include "engine/simulate/replicate_simulator.hpp"
 #include "engine/simulate/tracking_law.hpp"
 
 using namespace torquescope;
@@ -18,8 +18,8 @@ constexpr Eigen::Index samples = 2000;
 constexpr double rounding = 1e-12;
 
 // a motor that plays its reference as torque and looks at nothing: whatever a sensor shows, the joint moves alike
-TwinLoop blind_loop() {
-  TwinLoop loop;
+ReplicateLoop blind_loop() {
+  ReplicateLoop loop;
   loop.law.position = {0.0};
   loop.law.reference = {0.0, 1.0, 0.0};
   loop.torque_noise = white(0.02);
@@ -28,28 +28,29 @@ TwinLoop blind_loop() {
 }
 
 // stiff, with the position fed back
-TwinLoop closed_loop() {
-  TwinLoop loop = blind_loop();
+ReplicateLoop closed_loop() {
+  ReplicateLoop loop = blind_loop();
   loop.law = tracking_law({0.04}, 10.0, {rate_hz});
   return loop;
 }
 
-TwinTrack track(double size) {
-  TwinTrack made;
+ReplicateTrack track(double size) {
+  ReplicateTrack made;
   made.rate_hz = rate_hz;
   made.reference.resize(samples);
   for (Eigen::Index k = 0; k < samples; ++k) made.reference[k] = size * std::sin(0.006 * static_cast<double>(k));
   return made;
 }
 
-TwinGroup simulated(TwinLoop const& loop, TwinTrack const& reference, std::vector<LaneEffectMaker> effects) {
-  TwinJoint joint;
+ReplicateGroup simulated(ReplicateLoop const& loop, ReplicateTrack const& reference,
+                         std::vector<LaneEffectMaker> effects) {
+  ReplicateJoint joint;
   joint.lanes = {0.04, 0.2, 0.0, 0.0};
   joint.coulomb_forward = 0.3;
   joint.coulomb_backward = -0.3;
   joint.effects = std::move(effects);
-  TwinGroup group;
-  CleanTwin(joint, loop, reference, 1e-4).simulate({5, 0, 0}, 0, group);
+  ReplicateGroup group;
+  ReplicateSimulator(joint, loop, reference, 1e-4).simulate({5, 0, 0}, 0, group);
   return group;
 }
 
@@ -69,7 +70,7 @@ Eigen::VectorXd reading_error(Eigen::VectorXd const& q) {
 // what a fresh effect adds, and where
 struct Answer {
   LaneDemand demand{};
-  double position[twin_lanes] = {}, torque[twin_lanes] = {};
+  double position[replicate_lanes] = {}, torque[replicate_lanes] = {};
 };
 
 Answer answer(LaneEffectMaker const& make, LaneInstant const& at) {
@@ -85,7 +86,7 @@ LaneInstant some_instant() {
   LaneInstant at;
   at.time_s = 0.9;
   at.step_s = 1e-3;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     at.q[lane] = 0.3 * static_cast<double>(lane);
     at.dq[lane] = 1.0 - 0.2 * static_cast<double>(lane);
     at.motor_torque[lane] = 0.5;
@@ -101,7 +102,7 @@ TEST(LaneEffect, OfASensorAddsToItsOwnChannelOnly) {
   } const cases[] = {{sensor_drift(), true}, {eccentricity(), false}};
   for (auto const& [make, is_torque] : cases) {
     auto const [demand, position, torque] = answer(make, at);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       EXPECT_EQ(demand.smooth[lane], 0.0);
       EXPECT_EQ(demand.inertia[lane], 0.0);
       EXPECT_EQ(demand.forward[lane], 0.0);
@@ -116,7 +117,7 @@ TEST(LaneEffect, OfASensorAddsToItsOwnChannelOnly) {
 TEST(LaneEffect, OfAJointAddsToNoChannel) {
   LaneInstant const at = some_instant();
   auto const [demand, position, torque] = answer(lane_effect(*find_effect("viscous"), {0.2}, {}), at);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     EXPECT_NEAR(demand.smooth[lane], 0.2 * at.dq[lane], rounding);
     EXPECT_EQ(position[lane], 0.0);
     EXPECT_EQ(torque[lane], 0.0);
@@ -156,10 +157,10 @@ TEST(LaneEffect, FollowsTheWholeTorqueOfTheMotor) {
 
 TEST(SensorDrift, ShiftsTheLoggedTorqueAndNothingElse) {
   // in a closed loop: a controller that saw it would answer
-  TwinGroup const plain = simulated(closed_loop(), track(0.8), {}),
-                  drifted = simulated(closed_loop(), track(0.8), {sensor_drift()});
+  ReplicateGroup const plain = simulated(closed_loop(), track(0.8), {}),
+                       drifted = simulated(closed_loop(), track(0.8), {sensor_drift()});
   ASSERT_GT(plain.position[0].maxCoeff(), 0.5);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     EXPECT_EQ(drifted.position[lane], plain.position[lane]);
     for (Eigen::Index k = 0; k < samples; ++k) {
       double const time_s = static_cast<double>(k) / rate_hz;
@@ -171,11 +172,11 @@ TEST(SensorDrift, ShiftsTheLoggedTorqueAndNothingElse) {
 
 TEST(EncoderEccentricity, ShiftsTheReadingOfAMotionThatIsTheSame) {
   // position noise is read with the error, and is none of the angle
-  TwinLoop loop = blind_loop();
+  ReplicateLoop loop = blind_loop();
   loop.position_noise_std = 0.0;
-  TwinGroup const plain = simulated(loop, track(1.6), {}), shifted = simulated(loop, track(1.6), {eccentricity()});
+  ReplicateGroup const plain = simulated(loop, track(1.6), {}), shifted = simulated(loop, track(1.6), {eccentricity()});
   ASSERT_GT(plain.position[0].maxCoeff() - plain.position[0].minCoeff(), 1.0);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     EXPECT_EQ(shifted.torque[lane], plain.torque[lane]);
     // the first reading is the recorded one, so the joint itself begins off by the error there; nothing else pulls it
     // on
@@ -188,9 +189,9 @@ TEST(EncoderEccentricity, ShiftsTheReadingOfAMotionThatIsTheSame) {
 }
 
 TEST(EncoderEccentricity, IsSeenByTheController) {
-  TwinLoop loop = closed_loop();
+  ReplicateLoop loop = closed_loop();
   loop.torque_noise = white(0.0);
-  TwinGroup const plain = simulated(loop, track(0.8), {}), shifted = simulated(loop, track(0.8), {eccentricity()});
+  ReplicateGroup const plain = simulated(loop, track(0.8), {}), shifted = simulated(loop, track(0.8), {eccentricity()});
   Eigen::VectorXd const answer = shifted.torque[0] - plain.torque[0];
   EXPECT_GT(answer.cwiseAbs().maxCoeff(), 0.01);
   // the loop keeps the reading where it was: the joint itself goes wrong by the error
@@ -203,20 +204,20 @@ TEST(Backlash, OfALoadHeavierThanItsMotorDoesNotRunAway) {
   // the gap lets them
   double const inertia = 0.04, push = 2.0;
   Eigen::Index const pushed = 20;
-  TwinLoop loop = blind_loop();
+  ReplicateLoop loop = blind_loop();
   loop.torque_noise = white(0.0);
   loop.position_noise_std = 0.0;
-  TwinTrack pulse = track(0.0);
+  ReplicateTrack pulse = track(0.0);
   pulse.reference.resize(3 * samples);
   pulse.reference.setZero();
   pulse.reference.head(pushed).setConstant(push);
   double const together = push * static_cast<double>(pushed) / rate_hz / inertia;
   for (double const share : {0.1, 0.5, 0.9, 0.97}) {
-    TwinJoint joint;
+    ReplicateJoint joint;
     joint.lanes = {inertia, 0.0, 0.0, 0.0};
     joint.effects = {lane_effect(*find_effect("backlash"), {share * inertia, 1e-3, 60.0, 0.3, 20.0, 0.0}, {})};
-    TwinGroup group;
-    CleanTwin(joint, loop, pulse, 1e-4).simulate({5, 0, 0}, 0, group);
+    ReplicateGroup group;
+    ReplicateSimulator(joint, loop, pulse, 1e-4).simulate({5, 0, 0}, 0, group);
     auto const& q = group.position[0];
     double const speed = (q[q.size() - 1] - q[q.size() - 1 - samples]) * rate_hz / static_cast<double>(samples);
     EXPECT_NEAR(speed / together, 1.0, 0.02) << share;

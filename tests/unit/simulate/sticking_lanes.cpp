@@ -20,16 +20,16 @@ LaneJoint const light{inertia, 0.0, 0.0, 0.0};
 
 LaneTorques friction_and(double held) {
   LaneTorques torques;
-  std::fill_n(torques.held, twin_lanes, held);
-  std::fill_n(torques.forward, twin_lanes, coulomb);
-  std::fill_n(torques.backward, twin_lanes, -coulomb);
+  std::fill_n(torques.held, replicate_lanes, held);
+  std::fill_n(torques.forward, replicate_lanes, coulomb);
+  std::fill_n(torques.backward, replicate_lanes, -coulomb);
   return torques;
 }
 
 LaneSticking law_of(double creep, double length) {
   LaneSticking law;
-  std::fill_n(law.creep, twin_lanes, creep);
-  std::fill_n(law.length, twin_lanes, length);
+  std::fill_n(law.creep, replicate_lanes, creep);
+  std::fill_n(law.length, replicate_lanes, length);
   return law;
 }
 
@@ -56,7 +56,7 @@ TEST(StickingLanes, OnlyTakeEnergy) {
   // a lane each for laws from set-valued to long bristles and fast creep
   LaneSticking law;
   LaneState state;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     law.creep[lane] = lane % 4 == 0 ? 0.0 : 1e-4 * std::pow(10.0, static_cast<double>(lane % 4));
     law.length[lane] = lane / 4 == 0 ? 0.0 : 1e-5 * std::pow(10.0, static_cast<double>(lane / 4));
     law.bend[lane] = lane % 2 == 0 ? 1.0 : -1.0;
@@ -67,11 +67,11 @@ TEST(StickingLanes, OnlyTakeEnergy) {
     double const stored = 0.5 * coulomb * law.length[lane] * law.bend[lane] * law.bend[lane];
     return 0.5 * inertia * state.dq[lane] * state.dq[lane] + stored;
   };
-  double before[twin_lanes];
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) before[lane] = energy(lane);
+  double before[replicate_lanes];
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) before[lane] = energy(lane);
   for (int step = 0; step < 3000; ++step) {
     advance_sticking_lanes(light, torques, step_s, 1, law, state);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       ASSERT_LE(energy(lane), before[lane] * (1.0 + 1e-12) + 1e-18) << lane << " " << step;
       before[lane] = energy(lane);
     }
@@ -93,7 +93,7 @@ LaneState driven(Advance const& advance) {
   LaneState state;
   LaneTorques torques = friction_and(0.0);
   for (int tick = 0; tick < 1000; ++tick) {
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) torques.held[lane] = torque_at(tick, lane);
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) torques.held[lane] = torque_at(tick, lane);
     advance(torques, state);
   }
   return state;
@@ -108,7 +108,8 @@ LaneState driven_by(LaneSticking const& start, std::size_t steps_per_tick) {
 
 double largest_difference(LaneState const& a, LaneState const& b) {
   double largest = 0.0;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) largest = std::max(largest, std::abs(a.q[lane] - b.q[lane]));
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
+    largest = std::max(largest, std::abs(a.q[lane] - b.q[lane]));
   return largest;
 }
 
@@ -131,10 +132,10 @@ TEST(StickingLanes, HaveTheSetValuedLawAsTheirLimit) {
 TEST(StickingLanes, DoNotKnowTheirNeighbours) {
   LaneSticking law = law_of(0.01, 1e-3);
   LaneState const alike = driven_by(law, 10);
-  for (std::size_t lane = 1; lane < twin_lanes; lane += 2) law.creep[lane] = 1e-4 * static_cast<double>(lane);
+  for (std::size_t lane = 1; lane < replicate_lanes; lane += 2) law.creep[lane] = 1e-4 * static_cast<double>(lane);
   LaneState const mixed = driven_by(law, 10);
-  for (std::size_t lane = 0; lane < twin_lanes; lane += 2) EXPECT_EQ(alike.q[lane], mixed.q[lane]) << lane;
-  for (std::size_t lane = 1; lane < twin_lanes; lane += 2) EXPECT_NE(alike.q[lane], mixed.q[lane]) << lane;
+  for (std::size_t lane = 0; lane < replicate_lanes; lane += 2) EXPECT_EQ(alike.q[lane], mixed.q[lane]) << lane;
+  for (std::size_t lane = 1; lane < replicate_lanes; lane += 2) EXPECT_NE(alike.q[lane], mixed.q[lane]) << lane;
 }
 
 TEST(StickingLanes, HaveTheSameBitsOnEveryInstructionSet) {
@@ -157,7 +158,7 @@ TEST(StickingLanes, DrawAllSizesOfCreepAlikeWithinTheRange) {
     draw_sticking({7, 0, 4}, group, range, -0.1, law);
     draw_sticking({7, 0, 4}, group, range, -0.1, again);
     EXPECT_EQ(std::memcmp(&law, &again, sizeof law), 0);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane, ++n) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane, ++n) {
       EXPECT_GE(law.creep[lane], range.least_creep);
       EXPECT_LE(law.creep[lane], range.most_creep);
       EXPECT_GE(law.length[lane], 0.0);

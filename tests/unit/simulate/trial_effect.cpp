@@ -30,7 +30,7 @@ LaneInstant instant(int tick) {
   LaneInstant at;
   at.step_s = 1e-3;
   at.time_s = tick * at.step_s;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     double const phase = 0.03 * tick + 0.4 * static_cast<double>(lane);
     at.q[lane] = std::sin(phase);
     at.dq[lane] = 30.0 * std::cos(phase);
@@ -43,7 +43,7 @@ LaneInstant instant(int tick) {
 // joints of their own, so that a law which follows the load sees which lane is which
 LaneBaseline baseline() {
   LaneBaseline made;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     double const more = 1.0 + 0.1 * static_cast<double>(lane);
     made.joint.set(lane, {0.05 * more, 0.1, 0.6 * more, -0.2});
   }
@@ -54,7 +54,7 @@ LaneBaseline baseline() {
 std::vector<std::vector<double>> parameters_of(Effect const& effect) {
   auto const ranges = effect.shape_bounds(scales());
   std::vector<std::vector<double>> lanes;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     auto const which = static_cast<double>(lane * lane % 7 % 3);
     std::vector<double> parameters(effect.n_linear(), 0.1 + 0.07 * which);
     for (auto const& range : ranges)
@@ -66,7 +66,7 @@ std::vector<std::vector<double>> parameters_of(Effect const& effect) {
 
 struct Answer {
   LaneDemand demand{};
-  double position[twin_lanes] = {}, torque[twin_lanes] = {};
+  double position[replicate_lanes] = {}, torque[replicate_lanes] = {};
 };
 
 Answer answer(LaneEffect& effect, LaneInstant const& at) {
@@ -103,7 +103,7 @@ TEST(TrialEffect, OfEveryLaneIsThatOfTheLaneAlone) {
     for (int tick = 0; tick < 200; ++tick) {
       LaneInstant const at = instant(tick);
       Answer const all = answer(*together, at);
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
         Answer const own = answer(*alone[lane], at);
         ASSERT_TRUE(same_in_lane(all, own, lane)) << effect->name() << ", lane " << lane << ", tick " << tick;
         acts = acts || is_anything(own, lane);
@@ -126,7 +126,7 @@ TEST(TrialEffect, MadeAgainBeginsAnew) {
   Answer fresh = answer(*first, instant(0));
   for (int tick = 1; tick < 50; ++tick) answer(*first, instant(tick));
   Answer const later = answer(*first, instant(0)), again = answer(*make(), instant(0));
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) EXPECT_TRUE(same_in_lane(fresh, again, lane));
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) EXPECT_TRUE(same_in_lane(fresh, again, lane));
   EXPECT_FALSE(same_in_lane(fresh, later, 0));
 }
 

@@ -38,7 +38,7 @@ TEST(DiagnoseOptions, ADiagnosisNeedsNoEstimatorAndNoSection) {
   Experiment const experiment = load("", Purpose::diagnose);
   DiagnoseOptions const& options = experiment.parts().diagnose;
   EXPECT_EQ(options.effects, std::vector<std::string>{"all"});
-  EXPECT_EQ(options.twins, 200);
+  EXPECT_EQ(options.replicates, 200);
   EXPECT_EQ(options.q, 0.05);
   EXPECT_EQ(options.max_effects, 5);
   EXPECT_THAT(experiment.diagnose_line(), HasSubstr("1 joint, 4 parameters; "));
@@ -90,7 +90,7 @@ TEST(DiagnoseOptions, NamedEffectsKeepTheirOrder) {
   Experiment const experiment =
       load("[diagnose]\neffects = [\"presliding\", \"stribeck\"]\ntwins = 60\n", Purpose::diagnose);
   EXPECT_EQ(names_of(experiment.parts().effects), (std::vector<std::string>{"presliding", "stribeck"}));
-  EXPECT_EQ(experiment.parts().diagnose.twins, 60);
+  EXPECT_EQ(experiment.parts().diagnose.replicates, 60);
 }
 
 TEST(DiagnoseOptions, KeysOfEarlierProgramsSayWhatToDo) {

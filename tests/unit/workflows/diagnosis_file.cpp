@@ -45,8 +45,8 @@ void expect_same_map(JointDiagnosis const& read, JointDiagnosis const& written) 
     EXPECT_EQ(one.cells[3].to, other.cells[3].to);
     EXPECT_EQ(one.cells[3].samples, other.cells[3].samples);
     EXPECT_EQ(one.cells[3].mean_residual, other.cells[3].mean_residual);
-    EXPECT_EQ(one.cells[3].twin_mean, other.cells[3].twin_mean);
-    EXPECT_EQ(one.cells[3].twin_std, other.cells[3].twin_std);
+    EXPECT_EQ(one.cells[3].replicate_mean, other.cells[3].replicate_mean);
+    EXPECT_EQ(one.cells[3].replicate_std, other.cells[3].replicate_std);
     EXPECT_EQ(one.cells[3].z, other.cells[3].z);
     EXPECT_EQ(one.cells[3].after_z, other.cells[3].after_z);
     EXPECT_EQ(one.cells[3].after_residual, other.cells[3].after_residual);
@@ -77,12 +77,12 @@ TEST(DiagnosisFile, GivesBackWhatOnlyThePageTells) {
   EXPECT_EQ(a.loop_remark, b.loop_remark);
   EXPECT_EQ(a.torque_noise, b.torque_noise);
   EXPECT_EQ(a.disturbance, b.disturbance);
-  EXPECT_EQ(a.twins, b.twins);
+  EXPECT_EQ(a.replicates, b.replicates);
   EXPECT_EQ(a.omnibus_z, b.omnibus_z);
   EXPECT_EQ(a.omnibus_p, b.omnibus_p);
   EXPECT_EQ(a.mismatch_rms, b.mismatch_rms);
   EXPECT_EQ(a.left_rms, b.left_rms);
-  EXPECT_EQ(a.twin_energy, b.twin_energy);
+  EXPECT_EQ(a.replicate_energy, b.replicate_energy);
   EXPECT_EQ(a.unit_position, b.unit_position);
   EXPECT_EQ(a.unit_torque, b.unit_torque);
 

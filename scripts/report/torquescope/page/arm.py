@@ -53,7 +53,7 @@ class Joint:
         return self.name[:1].upper() + self.name[1:] if str(self.number) in self.name else f"Joint {self.title}"
 
     @property
-    def unseen_or_train(self):
+    def validation_or_train(self):
         """(rows, which): what the picture of its torque shows."""
         return (self.validate, "validation") if self.validate is not None else (self.train, "training")
 

@@ -65,7 +65,7 @@ def _facts(sides):
     rows = [["verdict", *(side.verdict for side in sides)], ["job", *(side.job for side in sides)],
             ["of", *(side.of for side in sides)],
             ["error in training", *(q.percent(side.train) for side in sides)],
-            ["error, validation", *(q.percent(side.unseen) for side in sides)],
+            ["error, validation", *(q.percent(side.validation) for side in sides)],
             *([["errors are of", *(side.errors_of for side in sides)]] if len(set(errors_of)) > 1 else []),
             ["parameters", *(str(len(side.parameters)) for side in sides)],
             ["made", *(side.finished for side in sides)]]

@@ -45,7 +45,7 @@ class Side:
             self.is_arm = "arm" in result
             estimator = None if self.diagnosis else _reference(result)
             self.parameters = _of_joints(self.diagnosis.joints) if self.diagnosis else _of_estimator(result, estimator)
-            self.train, self.unseen = _errors(self.diagnosis, estimator)
+            self.train, self.validation = _errors(self.diagnosis, estimator)
             self.of = _of_what(result, self.diagnosis)
             self.estimator = estimator.get("title", "") if estimator else ""
             self.errors_of = "all samples, simulated" if estimator and rolls_out(estimator) else "rows"
@@ -144,8 +144,8 @@ def _of_joints(joints):
 def _errors(diagnosis, estimator):
     """(training, validation) as fractions; NaN where unknown, and of several joints, which have errors of their own."""
     if estimator is not None:
-        unseen = estimator.get("validation_relerr_median", math.nan)
-        return float(estimator.relerr_median), float(math.nan if unseen is None else unseen)
+        validation = estimator.get("validation_relerr_median", math.nan)
+        return float(estimator.relerr_median), float(math.nan if validation is None else validation)
     if len(diagnosis.joints) != 1:
         return math.nan, math.nan
     joint, = diagnosis.joints

@@ -198,7 +198,7 @@ def has_floor(joint):
 
 def share_closed(joint):
     """Of the error that a complete model would take away in validation (or in training); NaN when there is none."""
-    before, after, floor = unseen_errors(joint)
+    before, after, floor = validation_errors(joint)
     if not has_after(joint) or is_at_floor(before, floor) or not before > floor:
         return math.nan
     return min(1.0, (before - after) / (before - floor))
@@ -234,7 +234,7 @@ def told_errors(joint):
             for (before, after), where in zip(errors, ("in training", "in validation")) if math.isfinite(before)]
 
 
-def unseen_errors(joint):
+def validation_errors(joint):
     """(before, after, floor) on the validation recording, or in training without one."""
     if math.isfinite(joint.validation_relerr):
         return joint.validation_relerr, joint.augmented_validation_relerr, joint.floor_relerr

@@ -34,7 +34,7 @@ def _of_simulation(study, e):
     if not replay or e.name not in replay.models:
         return None
     model = replay.models.index(e.name)
-    recordings = [one for one in replay.recordings if not one.is_unseen]
+    recordings = [one for one in replay.recordings if not one.is_validation]
     if not recordings or any(not one.torque or not one.torque.has(model) or one.diverged[model] for one in recordings):
         return None
     left = [one.torque.difference(model) for one in recordings]

@@ -38,13 +38,13 @@ def gathers(study):
 
 def errors(study):
     """Relative errors in % joint by joint, of every estimator: rows that move one way, and all rows."""
-    head, unseen = ["joint"], study.validate is not None
+    head, validation = ["joint"], study.validate is not None
     kinds = [("", "joint_relerr", "relerr_median"), (", all rows", "joint_relerr_all_rows", "relerr_all_rows")]
     columns = []
     for e in study.estimators:
         for label, of_joints, of_arm in kinds:
             parts = [("train", of_joints, of_arm)]
-            if unseen:
+            if validation:
                 parts.append(("validation", "validation_" + of_joints, "validation_" + of_arm))
             for which, joints_key, arm_key in parts:
                 head.append(f"{e.short}, {which}{label}")

@@ -29,8 +29,8 @@ def _less_than_none(study):
 
 def _error(study):
     e = study.arm.reference(study)
-    unseen = e.validation_relerr_median if study.validate is not None else None
-    return (unseen, "a validation motion") if unseen is not None and np.isfinite(unseen) else \
+    validation = e.validation_relerr_median if study.validate is not None else None
+    return (validation, "a validation motion") if validation is not None and np.isfinite(validation) else \
         (e.relerr_median, "the training motion")
 
 
@@ -61,12 +61,13 @@ def head(study):
 def big_numbers(study):
     """[(number, unit, caption)]."""
     e = study.arm.reference(study)
-    unseen = study.validate is not None
-    prefix, where = ("validation_", "validation") if unseen else ("", "in training; no validation recording was given")
+    validation = study.validate is not None
+    prefix, where = (("validation_", "validation") if validation else
+                     ("", "in training; no validation recording was given"))
     first = getattr(e, prefix + "relerr_median")
     joints = np.asarray(getattr(e, prefix + "joint_relerr"), dtype=float)
     found = [(q.percent(first), "", f"error of {e.short} over all joints, {where}"
-              + (f"; {q.percent(e.relerr_median)} in training" if unseen else "")),
+              + (f"; {q.percent(e.relerr_median)} in training" if validation else "")),
              (q.percent(getattr(e, prefix + "relerr_all_rows")), "", "the same over all rows, reversals too")]
     if np.isfinite(joints).any():
         worst = int(np.nanargmax(joints))

@@ -107,7 +107,7 @@ def head(study):
 def big_numbers(joint):
     """[(number, unit, caption)]: at most four, without what was not measured."""
     found = [(_before_after(before, after), "", caption) for before, after, caption in diagnosed.told_errors(joint)]
-    before, after, floor = diagnosed.unseen_errors(joint)
+    before, after, floor = diagnosed.validation_errors(joint)
     if math.isfinite(floor) and not diagnosed.leaves_out(joint):
         error = after if diagnosed.has_after(joint) and math.isfinite(after) else before
         reached = diagnosed.is_at_floor(error, floor)
@@ -197,7 +197,7 @@ def fit_answer(study, joint):
         at = _floor_words(joint.validation_relerr, joint.floor_relerr)
         error = q.percent(joint.validation_relerr)
         return f"Nothing was put into the model; its validation error is {error}{at}.{refitted}"
-    before, after, floor = diagnosed.unseen_errors(joint)
+    before, after, floor = diagnosed.validation_errors(joint)
     to = _floor_words(after, floor)
     return f"Validation error {q.percent(before)} before, {q.percent(after)} after{to}.{refitted}"
 

@@ -4,7 +4,7 @@ import math
 
 from . import quantities as q
 from .words_of_diagnosis import kept_together
-from ..reader.read_replay import YOURS as YOUR_NAME, unseen_first
+from ..reader.read_replay import YOURS as YOUR_NAME, validation_first
 
 BEFORE, AFTER, YOURS = "before", "after", "yours"
 FIRST_SHOWN = 2  # recordings; the others are folded
@@ -26,12 +26,12 @@ def roles(replay):
 def named_recordings(replay):
     """[(name of its figure, recording)], those of validation first."""
     number = {id(one): at for at, one in enumerate(replay.recordings, start=1)}
-    return [(f"replay_{number[id(one)]}", one) for one in unseen_first(replay)]
+    return [(f"replay_{number[id(one)]}", one) for one in validation_first(replay)]
 
 
 def first(replay):
     """The recording that sentences are about: validation if there is one."""
-    return next(one for one in unseen_first(replay) if one.channels)
+    return next(one for one in validation_first(replay) if one.channels)
 
 
 def ends_early(one):
@@ -40,7 +40,7 @@ def ends_early(one):
 
 
 def called(one):
-    return f"{one.name}, {'validation' if one.is_unseen else 'training'}"
+    return f"{one.name}, {'validation' if one.is_validation else 'training'}"
 
 
 def caption(replay, one):
@@ -122,7 +122,7 @@ def answer(study):
 
 
 def _which(one):
-    return f"the {'validation' if one.is_unseen else 'training'} recording {one.name}"
+    return f"the {'validation' if one.is_validation else 'training'} recording {one.name}"
 
 
 def _told(study, one):
@@ -171,9 +171,9 @@ def _percents(replay, one, values):
 
 def head(study):
     recordings = study.replay.recordings
-    unseen = sum(one.is_unseen for one in recordings)
+    validation = sum(one.is_validation for one in recordings)
     return [study.job.name, f"{study.joint} joint",
-            q.count(len(recordings), "recording") + (f", {q.whole(unseen)} validation" if unseen else "")]
+            q.count(len(recordings), "recording") + (f", {q.whole(validation)} validation" if validation else "")]
 
 
 def big_numbers(study):
@@ -184,7 +184,7 @@ def big_numbers(study):
     for name, channel in _told(study, one):
         before, after = (figure_of(one, channel.relerr, model, q.percent) for model in (replay.before, replay.after))
         was = f"; {before} {_with(replay, replay.before)}" if replay.after != replay.before else ""
-        where = "validation" if one.is_unseen else "training"
+        where = "validation" if one.is_validation else "training"
         found.append((after, "", kept_together(f"error of the {name}, {where}{was}")))
     found.append((q.whole(one.samples), "", "samples, and all of them count"))
     if ends_early(one):

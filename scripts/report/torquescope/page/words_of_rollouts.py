@@ -23,7 +23,7 @@ def evidence(study, e):
     """What it leaves, over how many samples, and which of its parameters stop at a bound."""
     if ran_away(e):
         return f"The simulation of {e.short} ran away, so there are no errors."
-    samples = sum(one.samples for one in study.replay.recordings if not one.is_unseen) if study.replay else 0
+    samples = sum(one.samples for one in study.replay.recordings if not one.is_validation) if study.replay else 0
     said = [f"{e.short} leaves {q.with_unit(q.number(e.residual_std_median), study.error_unit(e))} of the "
             f"{study.error_of(e)} (standard deviation) on "
             + (f"{q.count(samples, 'sample')}, {how(study)}." if samples else f"all samples, {how(study)}.")]
@@ -39,8 +39,8 @@ def errors(study, e):
     """'LM: 3.0 % relative error of the force in training, 3.5 % in validation, over all samples, in its loop.'"""
     if ran_away(e):
         return evidence(study, e)
-    unseen = "" if study.validate is None else f", {q.percent(e.validation_relerr_median)} in validation"
-    return (f"{e.short}: {q.percent(e.relerr_median)} relative error of the {study.error_of(e)} in training{unseen}, "
+    further = "" if study.validate is None else f", {q.percent(e.validation_relerr_median)} in validation"
+    return (f"{e.short}: {q.percent(e.relerr_median)} relative error of the {study.error_of(e)} in training{further}, "
             f"over all samples, {how(study)}.")
 
 

@@ -72,7 +72,7 @@ class ReplayRecording:
         return {name: channel for name, channel in found.items() if channel is not None}
 
     @property
-    def is_unseen(self) -> bool:
+    def is_validation(self) -> bool:
         return self.purpose == "validate"
 
 
@@ -123,12 +123,12 @@ def _channel(group):
 def replay_table(replay: Replay, number) -> list[list[str]]:
     """Rows of texts, the head first: relative errors of all models, those of validation first; `number` writes them."""
     rows = [["replayed", "channel", *replay.models]]
-    for one in unseen_first(replay):
+    for one in validation_first(replay):
         for name, channel in one.channels.items():
             errors = ["diverged" if gone else number(error) for error, gone in zip(channel.relerr, one.diverged)]
             rows.append([one.name, name, *errors])
     return rows
 
 
-def unseen_first(replay: Replay) -> list[ReplayRecording]:
-    return sorted(replay.recordings, key=lambda one: not one.is_unseen)
+def validation_first(replay: Replay) -> list[ReplayRecording]:
+    return sorted(replay.recordings, key=lambda one: not one.is_validation)

@@ -64,14 +64,14 @@ def cases(study):
 
 
 def _case(rows):
-    unseen = any(label == "validation" for label, *_ in rows)
+    validation = any(label == "validation" for label, *_ in rows)
     sentence = "Norm of the residual over norm of the measured signal"
     if any(np.isfinite(floor) for *_, floor in rows):
         sentence += "; grey bar: the floor, which a complete model would reach"
     return Case(
         draw,
         {"rows": rows},
-        "Error in training and validation" if unseen else "Error in training",
+        "Error in training and validation" if validation else "Error in training",
         f"{sentence}.",
         wide=True,
     )

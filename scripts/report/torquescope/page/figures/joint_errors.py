@@ -6,8 +6,8 @@ from .. import style
 
 def cases(study):
     e = study.arm.reference(study)
-    unseen = e.validation_joint_relerr
-    rows = [(joint.title, e.joint_relerr[k], unseen[k] if unseen is not None else float("nan"), style.LIGHT["ink"])
+    validation = e.validation_joint_relerr
+    rows = [(joint.title, e.joint_relerr[k], float("nan") if validation is None else validation[k], style.LIGHT["ink"])
             for k, joint in enumerate(study.arm.joints) if joint.train is not None]
     last = e.validation_relerr_median if study.validate is not None else float("nan")
     rows.append(("arm", e.relerr_median, last, style.LIGHT["augmented"]))

@@ -23,7 +23,7 @@ def draw(time, measured, model, label, window, symbol, unit, width=style.WIDE):
 def cases(study):
     e, found = study.arm.reference(study), {}
     for joint in study.arm.joints:
-        rows, which = joint.unseen_or_train
+        rows, which = joint.validation_or_train
         if rows is None:
             continue
         time, measured, model = rows.with_gaps(rows.torque, rows.prediction(e.chosen))

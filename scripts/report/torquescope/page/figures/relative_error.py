@@ -17,23 +17,23 @@ def draw(rows, width=style.WIDE):
     bottom = 34 + row * len(rows)
     axes = canvas.axes(left, 26, width - (14 if narrow else 150), bottom)
     readings.of(axes, ("relative error", "%"), ("", ""), zoom="x")
-    largest = 100 * max(np.nanmax([train, unseen]) for _, train, unseen, _ in rows)
-    for index, (label, train, unseen, colour) in enumerate(rows):
+    largest = 100 * max(np.nanmax([train, validation]) for _, train, validation, _ in rows)
+    for index, (label, train, validation, colour) in enumerate(rows):
         y = -index - (0.15 if narrow else 0)
-        for value, where in ((train, "training"), (unseen, "validation")):
+        for value, where in ((train, "training"), (validation, "validation")):
             if np.isfinite(value):
                 readings.note(axes, f"{label}, {where}: {quantities.percent(value, 3)}", at=(100 * value, y))
-        if np.isfinite(unseen):
-            axes.plot([100 * train, 100 * unseen], [y, y], color=style.LIGHT["measured"], linewidth=2.4, zorder=2)
-            axes.plot(100 * unseen, y, marker="o", markersize=9, color=colour, zorder=4)
+        if np.isfinite(validation):
+            axes.plot([100 * train, 100 * validation], [y, y], color=style.LIGHT["measured"], linewidth=2.4, zorder=2)
+            axes.plot(100 * validation, y, marker="o", markersize=9, color=colour, zorder=4)
         axes.plot(100 * train, y, marker="o", markersize=9, color=colour, markerfacecolor=style.LIGHT["background"],
                   markeredgewidth=2, zorder=3)
         # on a phone the words stand above their dots
         line = 26 + (bottom - 26) * (index + (0 if narrow else 0.5)) / len(rows) + (12 if narrow else 4)
         canvas.text(0, line, style.fit(label, 200 if narrow else left - 12), color=style.LIGHT["ink"])
         words = f"{quantities.percent(train, 3)}"
-        if np.isfinite(unseen):
-            words += f" → {quantities.percent(unseen, 3)}"
+        if np.isfinite(validation):
+            words += f" → {quantities.percent(validation, 3)}"
         canvas.text(width, line, words, ha="right", color=style.LIGHT["ink"], fontweight="bold")
     axes.set(xlim=(0, 1.06 * largest), ylim=(-len(rows) + 0.5, 0.5), yticks=[])
     axes.set_xlabel(f"relative error (% of {'the signal' if narrow else 'the measured signal'})", labelpad=3)

@@ -27,5 +27,5 @@ def draw(energies, width=style.SMALL):
 def cases(study):
     return {diagnosed.figure_name(study, joint, "twin_energy"):
             Case(draw, {"energies": joint.twin_energy}, "Among its replicates",
-                 f"Residual energy of {quantities.count(len(joint.twin_energy), 'clean twin')}; line: the recording.")
+                 f"Residual energy of {quantities.count(len(joint.twin_energy), 'replicate')}; line: the recording.")
             for joint in study.diagnosis.joints if np.isfinite(joint.twin_energy).any()}

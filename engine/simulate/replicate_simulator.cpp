@@ -1,4 +1,4 @@
-#include "engine/simulate/clean_twin.hpp"
+#include "engine/simulate/replicate_simulator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +15,14 @@
 namespace torquescope {
 namespace {
 
-// Anywhere within the encoder's first step. Without it twins of an undisturbed joint would all move alike: torque noise
-// is only logged, and one pattern of rounding would pass for all there is.
-void draw_starts(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, TwinTrack const& track,
-                 double* position) {
-  for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {
-    RandomStream random({address.seed, address.recording, RandomDomain::twin},
-                        stream_number(address, TwinStream::start),
-                        group * static_cast<std::uint32_t>(twin_lanes) + lane);
+// Anywhere within the encoder's first step. Without it replicates of an undisturbed joint would all move alike: torque
+// noise is only logged, and one pattern of rounding would pass for all there is.
+void draw_starts(ReplicateAddress const& address, std::uint32_t group, ReplicateLoop const& loop,
+                 ReplicateTrack const& track, double* position) {
+  for (std::uint32_t lane = 0; lane < replicate_lanes; ++lane) {
+    RandomStream random({address.seed, address.recording, RandomDomain::replicate},
+                        stream_number(address, ReplicateStream::start),
+                        group * static_cast<std::uint32_t>(replicate_lanes) + lane);
     position[lane] = track.start_position + loop.encoder_step * (random.uniform() - 0.5);
   }
 }
@@ -30,34 +30,34 @@ void draw_starts(TwinAddress const& address, std::uint32_t group, TwinLoop const
 // Where the encoder's steps lie is not known better than a step: what rounding makes of one motion is noise, not
 // physics. With the steps in one place all replicates of an undisturbed joint would share nearly every reading, and one
 // pattern of rounding would pass for all there is.
-void draw_phases(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double* phase) {
-  for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {
-    RandomStream random({address.seed, address.recording, RandomDomain::twin},
-                        stream_number(address, TwinStream::phase),
-                        group * static_cast<std::uint32_t>(twin_lanes) + lane);
+void draw_phases(ReplicateAddress const& address, std::uint32_t group, ReplicateLoop const& loop, double* phase) {
+  for (std::uint32_t lane = 0; lane < replicate_lanes; ++lane) {
+    RandomStream random({address.seed, address.recording, RandomDomain::replicate},
+                        stream_number(address, ReplicateStream::phase),
+                        group * static_cast<std::uint32_t>(replicate_lanes) + lane);
     phase[lane] = loop.encoder_step * (random.uniform() - 0.5);
   }
 }
 
 // The recording's first position is what the encoder read: a joint whose readings are off begins where it would read
 // that. Otherwise the law sees the whole error arrive in one tick
-void read_as_recorded(TwinJoint const& joint, LaneInstant const& start, double* position) {
-  alignas(64) double read[twin_lanes];
-  std::copy_n(position, twin_lanes, read);
+void read_as_recorded(ReplicateJoint const& joint, LaneInstant const& start, double* position) {
+  alignas(64) double read[replicate_lanes];
+  std::copy_n(position, replicate_lanes, read);
   for (auto const& make : joint.effects) make()->shift_position(start, read);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] -= read[lane] - position[lane];
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) position[lane] -= read[lane] - position[lane];
 }
 
 void read_encoder(double step, double const* phase, double* position) {
   if (step == 0.0) return;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
     position[lane] = step * std::floor((position[lane] + phase[lane]) / step + 0.5) - phase[lane];
 }
 
 // The longest step between two changes of the torque. A law with a memory, or one of sticking, is as quick as the
 // caller knows. The joint alone decays at viscous / inertia and swings at sqrt(gravity / inertia): at a fiftieth of
 // that time what the second order leaves out, a sixth of the square, is 7e-5
-double longest_step_s(TwinJoint const& joint, StickingRange const& sticking, double step_s, double tick_s) {
+double longest_step_s(ReplicateJoint const& joint, StickingRange const& sticking, double step_s, double tick_s) {
   auto const has_memory = [](LaneEffectMaker const& make) { return make()->follows_steps(); };
   if (sticking.is_any() || std::any_of(joint.effects.begin(), joint.effects.end(), has_memory)) return step_s;
   constexpr double fiftieth = 0.02;
@@ -79,7 +79,7 @@ std::size_t steps_held(LaneJoint const& joint, double step_s, std::size_t steps_
 
 }  // namespace
 
-CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double step_s)
+ReplicateSimulator::ReplicateSimulator(ReplicateJoint joint, ReplicateLoop loop, ReplicateTrack track, double step_s)
     : joint_(std::move(joint)), loop_(std::move(loop)), track_(std::move(track)), asked_step_s_(step_s) {
   Eigen::Index const n = track_.reference.size();
   TORQUESCOPE_EXPECT(n > 0 && track_.rate_hz > 0.0 && step_s > 0.0 && !loop_.law.position.empty());
@@ -94,20 +94,20 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
   for (Eigen::Index k = 0; k < n; ++k) wanted_[k] = reference(k + loop_.law.shift);
 }
 
-void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const {
-  LaneNoise torque_noise(address, TwinStream::torque, group, loop_.torque_noise);
-  LaneNoise slow_torque_noise(address, TwinStream::torque, group + second_half, loop_.slow_torque_noise);
-  LaneLevels const torque_level(address, TwinStream::level, group + second_half, 1.0,
+void ReplicateSimulator::simulate(ReplicateAddress const& address, std::uint32_t group, ReplicateGroup& out) const {
+  LaneNoise torque_noise(address, ReplicateStream::torque, group, loop_.torque_noise);
+  LaneNoise slow_torque_noise(address, ReplicateStream::torque, group + second_half, loop_.slow_torque_noise);
+  LaneLevels const torque_level(address, ReplicateStream::level, group + second_half, 1.0,
                                 loop_.torque_noise_variance_error);
-  LaneNoise disturbance(address, TwinStream::disturbance, group, white(1.0));
-  LaneNoise position_noise(address, TwinStream::position, group, white(loop_.position_noise_std));
-  LaneLevels const disturbance_std(address, TwinStream::level, group, loop_.disturbance_std,
+  LaneNoise disturbance(address, ReplicateStream::disturbance, group, white(1.0));
+  LaneNoise position_noise(address, ReplicateStream::position, group, white(loop_.position_noise_std));
+  LaneLevels const disturbance_std(address, ReplicateStream::level, group, loop_.disturbance_std,
                                    loop_.disturbance_variance_error);
-  double encoder_phase[twin_lanes];
+  double encoder_phase[replicate_lanes];
   draw_phases(address, group, loop_, encoder_phase);
   LaneFriction friction(address, group, loop_, 1.0 / track_.rate_hz);
   LaneController controller(loop_.law, track_.start_position, track_.start_velocity, track_.rate_hz);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     out.position[lane].resize(samples());
     out.torque[lane].resize(samples());
     out.ran_away[lane] = false;
@@ -115,7 +115,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
 
   LaneState state;
   draw_starts(address, group, loop_, track_, state.q);
-  std::fill_n(state.dq, twin_lanes, track_.start_velocity);
+  std::fill_n(state.dq, replicate_lanes, track_.start_velocity);
   LaneJoints const lanes = joint_.lanes;
   LaneSticking sticking;
   bool const sticks = loop_.sticking.is_any();
@@ -123,7 +123,8 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   LaneMotion motion({joint_.coulomb_forward, joint_.coulomb_backward}, joint_.effects,
                     {step_s_, steps_per_tick_, steps_held(joint_.lanes, step_s_, steps_per_tick_)});
   auto const& effects = motion.effects();
-  alignas(64) double noise[twin_lanes], measured[twin_lanes], logged[twin_lanes], command[twin_lanes] = {};
+  alignas(64) double noise[replicate_lanes], measured[replicate_lanes], logged[replicate_lanes],
+      command[replicate_lanes] = {};
   double const tick_s = 1.0 / track_.rate_hz;
   read_as_recorded(joint_, instant_of(state, 0.0, tick_s, command), state.q);
   for (Eigen::Index k = 0; k < samples(); ++k) {
@@ -131,12 +132,12 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
 
     // measure and answer
     position_noise.next(noise);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) measured[lane] = state.q[lane] + noise[lane];
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) measured[lane] = state.q[lane] + noise[lane];
     for (auto const& effect : effects) effect->shift_position(instant_of(state, time_s, tick_s, command), measured);
     if (loop_.sees_motion) controller.command(measured, open_[k], wanted_[k], command);
     read_encoder(loop_.encoder_step, encoder_phase, measured);
     if (!loop_.sees_motion) controller.command(measured, open_[k], wanted_[k], command);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
       // also true for a command that is no number
       if (!(std::abs(command[lane]) <= track_.largest_torque)) out.ran_away[lane] = true;
     if (track_.gear_load.size() > 0)
@@ -146,13 +147,13 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     torque_noise.next(logged);
     if (loop_.slow_torque_noise.std > 0.0) {
       slow_torque_noise.next(noise);
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] += noise[lane];
+      for (std::size_t lane = 0; lane < replicate_lanes; ++lane) logged[lane] += noise[lane];
     }
     if (loop_.torque_noise_variance_error > 0.0)
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] *= torque_level[lane];
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] += command[lane];
+      for (std::size_t lane = 0; lane < replicate_lanes; ++lane) logged[lane] *= torque_level[lane];
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) logged[lane] += command[lane];
     for (auto const& effect : effects) effect->shift_torque(instant_of(state, time_s, tick_s, command), logged);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       out.position[lane][k] = measured[lane];
       out.torque[lane][k] = logged[lane];
     }
@@ -162,9 +163,9 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     if (disturbance_std.is_any()) {
       disturbance.next(noise);
     } else {
-      std::fill_n(noise, twin_lanes, 0.0);
+      std::fill_n(noise, replicate_lanes, 0.0);
     }
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
       noise[lane] = command[lane] + disturbance_std[lane] * noise[lane] - joint_.offset;
     motion.advance_tick(lanes, time_s, command, noise, friction.level(), sticks ? &sticking : nullptr, state);
   }

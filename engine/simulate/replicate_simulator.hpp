@@ -5,13 +5,13 @@
 //            torque noise is added to the log, disturbance to the joint; the dry friction level may walk
 // Start      at the recording's first velocity, anywhere within the encoder step of its first position
 // Encoder    where its steps lie is drawn for every replicate: else all share the recording's own rounding
-// Groups     twin_lanes replicates are simulated side by side; replicate i is lane i % twin_lanes of group i /
-//            twin_lanes
+// Groups     replicate_lanes replicates are simulated side by side; replicate i is lane i % replicate_lanes of group i
+//            / replicate_lanes
 // Random     addressed by (seed, recording, set, stream, replicate, draw): same bits on any number of threads and any
 //            instruction set, whatever was simulated before; sets are independent
-// Accuracy   second order in step_s, stops and reversals included (twin_lanes.hpp)
+// Accuracy   second order in step_s, stops and reversals included (replicate_lanes.hpp)
 // Units      SI
-// Threads    const object, any number of threads, each with its own TwinGroup
+// Threads    const object, any number of threads, each with its own ReplicateGroup
 
 #include <Eigen/Core>
 #include <array>
@@ -20,13 +20,13 @@
 
 #include "engine/simulate/autoregression.hpp"
 #include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/replicate_joint.hpp"
 #include "engine/simulate/sticking_range.hpp"
-#include "engine/simulate/twin_joint.hpp"
 
 namespace torquescope {
 
 // the loop round the joint; noise is whatever the recording's is
-struct TwinLoop {
+struct ReplicateLoop {
   LoopLaw law{};
   double encoder_step = 0.0;           // rad or m; 0: exact
   Autoregression torque_noise{};       // of the measurement
@@ -46,7 +46,7 @@ struct TwinLoop {
 };
 
 // what the recording prescribes
-struct TwinTrack {
+struct ReplicateTrack {
   double rate_hz = 0.0;
   Eigen::VectorXd reference{};  // [n]
   double start_position = 0.0, start_velocity = 0.0;
@@ -58,34 +58,34 @@ struct TwinTrack {
   Eigen::VectorXd fed_forward{};  // [n] torque that the law adds to its answer; empty: none
 };
 
-struct TwinAddress {
+struct ReplicateAddress {
   std::uint64_t seed = 0;
   std::uint32_t recording = 0;  // < 2^24
   std::uint32_t set = 0;        // < 2^29
 };
 
 // workspace and result of one group: measured channels as a recording has them
-struct TwinGroup {
-  std::array<Eigen::VectorXd, twin_lanes> position{}, torque{};  // [n] each
-  std::array<bool, twin_lanes> ran_away{};
+struct ReplicateGroup {
+  std::array<Eigen::VectorXd, replicate_lanes> position{}, torque{};  // [n] each
+  std::array<bool, replicate_lanes> ran_away{};
 };
 
-class CleanTwin {
+class ReplicateSimulator {
  public:
   // step_s: of laws with a memory; where nothing asks for it the steps are longer, a whole number of them per tick
-  CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double step_s);
+  ReplicateSimulator(ReplicateJoint joint, ReplicateLoop loop, ReplicateTrack track, double step_s);
 
   Eigen::Index samples() const { return track_.reference.size(); }
-  TwinJoint const& joint() const { return joint_; }
-  TwinLoop const& loop() const { return loop_; }
-  TwinTrack const& track() const { return track_; }
+  ReplicateJoint const& joint() const { return joint_; }
+  ReplicateLoop const& loop() const { return loop_; }
+  ReplicateTrack const& track() const { return track_; }
   double step_s() const { return asked_step_s_; }
-  void simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const;
+  void simulate(ReplicateAddress const& address, std::uint32_t group, ReplicateGroup& out) const;
 
  private:
-  TwinJoint joint_;
-  TwinLoop loop_;
-  TwinTrack track_;
+  ReplicateJoint joint_;
+  ReplicateLoop loop_;
+  ReplicateTrack track_;
   double asked_step_s_ = 0.0, step_s_ = 0.0;
   std::size_t steps_per_tick_ = 0;
   Eigen::VectorXd open_;    // the law's part that no replicate changes

@@ -1,4 +1,4 @@
-#include "engine/fit/statistics/twin_null.hpp"
+#include "engine/fit/statistics/replicate_null.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,28 +35,29 @@ double ratio(double difference, double spread) {
 
 }  // namespace
 
-double empirical_p(double data, std::span<double const> twins) {
-  TORQUESCOPE_EXPECT(!twins.empty());
-  auto const above = std::count_if(twins.begin(), twins.end(), [&](double twin) { return twin >= data; });
-  return (1.0 + static_cast<double>(above)) / (static_cast<double>(twins.size()) + 1.0);
+double empirical_p(double data, std::span<double const> replicates) {
+  TORQUESCOPE_EXPECT(!replicates.empty());
+  auto const above =
+      std::count_if(replicates.begin(), replicates.end(), [&](double replicate) { return replicate >= data; });
+  return (1.0 + static_cast<double>(above)) / (static_cast<double>(replicates.size()) + 1.0);
 }
 
-double twin_z(double data, std::span<double const> twins) {
-  TORQUESCOPE_EXPECT(twins.size() >= 2);
-  Moments const moments = moments_of(twins);
-  double const one_more = 1.0 + 1.0 / static_cast<double>(twins.size());
+double replicate_z(double data, std::span<double const> replicates) {
+  TORQUESCOPE_EXPECT(replicates.size() >= 2);
+  Moments const moments = moments_of(replicates);
+  double const one_more = 1.0 + 1.0 / static_cast<double>(replicates.size());
   return ratio(data - moments.mean, std::sqrt(moments.variance * one_more));
 }
 
-std::vector<double> standardised_twins(std::span<double const> twins) {
-  TORQUESCOPE_EXPECT(twins.size() >= 3);
-  auto const n = static_cast<double>(twins.size());
-  Moments const all = moments_of(twins);
+std::vector<double> standardised_replicates(std::span<double const> replicates) {
+  TORQUESCOPE_EXPECT(replicates.size() >= 3);
+  auto const n = static_cast<double>(replicates.size());
+  Moments const all = moments_of(replicates);
   double const sum_of_squares = all.variance * (n - 1.0);
   std::vector<double> z;
-  z.reserve(twins.size());
-  for (double twin : twins) {
-    double const deviation = twin - all.mean;
+  z.reserve(replicates.size());
+  for (double replicate : replicates) {
+    double const deviation = replicate - all.mean;
     // mean and variance of the others, without a second pass
     double const difference = deviation * n / (n - 1.0);
     double const variance = std::max(0.0, (sum_of_squares - deviation * deviation * n / (n - 1.0)) / (n - 2.0));

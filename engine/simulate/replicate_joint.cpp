@@ -1,4 +1,4 @@
-#include "engine/simulate/twin_joint.hpp"
+#include "engine/simulate/replicate_joint.hpp"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ Problem no_joint(std::string what) {
 
 }  // namespace
 
-bool place_in_lanes(TwinJoint& joint, std::string const& term, double const* value) {
+bool place_in_lanes(ReplicateJoint& joint, std::string const& term, double const* value) {
   if (term == "inertia") {
     joint.lanes.inertia += value[0];
   } else if (term == "viscous") {
@@ -42,14 +42,14 @@ bool place_in_lanes(TwinJoint& joint, std::string const& term, double const* val
   return true;
 }
 
-TwinJoint make_twin_joint(Regressor const& regressor, Eigen::VectorXd const& parameters) {
+ReplicateJoint make_replicate_joint(Regressor const& regressor, Eigen::VectorXd const& parameters) {
   TORQUESCOPE_EXPECT(static_cast<std::size_t>(parameters.size()) == regressor.size());
-  TwinJoint joint;
+  ReplicateJoint joint;
   joint.lanes.inertia = 0.0;
   double const* value = parameters.data();
   for (auto const* effect : regressor.terms()) {
     std::size_t const count = effect->n_linear();
-    // what comes with a recording is placed by who knows the recording (JointModel::twin_joint)
+    // what comes with a recording is placed by who knows the recording (JointModel::replicate_joint)
     if (effect->is_given()) {
       value += count;
       continue;

@@ -11,11 +11,11 @@
 
 #include "engine/effects/regressor.hpp"
 #include "engine/simulate/lane_effect.hpp"
-#include "engine/simulate/twin_lanes.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 
 namespace torquescope {
 
-struct TwinJoint {
+struct ReplicateJoint {
   LaneJoint lanes{};
   double coulomb_forward = 0.0;   // torque of dry friction while dq > 0
   double coulomb_backward = 0.0;  // and while dq < 0: below it
@@ -24,9 +24,9 @@ struct TwinJoint {
 };
 
 // adds a term's torque to the joint; false: the lanes have no place for it. value: its linear parameters
-bool place_in_lanes(TwinJoint& joint, std::string const& term, double const* value);
+bool place_in_lanes(ReplicateJoint& joint, std::string const& term, double const* value);
 
 // parameters: [regressor.size()], as a fit returns them
-TwinJoint make_twin_joint(Regressor const& regressor, Eigen::VectorXd const& parameters);
+ReplicateJoint make_replicate_joint(Regressor const& regressor, Eigen::VectorXd const& parameters);
 
 }  // namespace torquescope

@@ -1,6 +1,6 @@
 // The equation of motion in vector lanes, against the scalar plant with steps ten times finer.
 
-#include "engine/simulate/twin_lanes.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 using namespace torquescope;
 using torquescope::test::plant;
 
-namespace twin_lanes_test {
+namespace replicate_lanes_test {
 
 constexpr double inertia = 0.04, viscous = 0.2, coulomb = 1.3, weight_sin = 0.8, weight_cos = 0.3;
 constexpr double tick_s = 1e-3;
@@ -32,10 +32,10 @@ double torque_at(int tick, std::size_t lane) {
 LaneState lanes_after(int ticks, std::size_t steps_per_tick) {
   LaneState state;
   LaneTorques torques;
-  std::fill_n(torques.forward, twin_lanes, coulomb);
-  std::fill_n(torques.backward, twin_lanes, -coulomb);
+  std::fill_n(torques.forward, replicate_lanes, coulomb);
+  std::fill_n(torques.backward, replicate_lanes, -coulomb);
   for (int tick = 0; tick < ticks; ++tick) {
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) torques.held[lane] = torque_at(tick, lane);
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) torques.held[lane] = torque_at(tick, lane);
     advance_lanes(joint, torques, tick_s / static_cast<double>(steps_per_tick), steps_per_tick, state);
   }
   return state;
@@ -58,33 +58,33 @@ constexpr int n_ticks = 1000;
 
 double largest_error(std::size_t steps_per_tick) {
   static auto const exact = [] {
-    std::array<double, twin_lanes> q{};
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) q[lane] = plant_after(n_ticks, lane, 100).q;
+    std::array<double, replicate_lanes> q{};
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) q[lane] = plant_after(n_ticks, lane, 100).q;
     return q;
   }();
   auto const state = lanes_after(n_ticks, steps_per_tick);
   double largest = 0.0;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
     largest = std::max(largest, std::abs(state.q[lane] - exact[lane]));
   return largest;
 }
 
-TEST(TwinLanes, FollowThePlantThroughSlidingTurningAndSticking) {
+TEST(ReplicateLanes, FollowThePlantThroughSlidingTurningAndSticking) {
   // 1 s without any controller to pull them together; an encoder step is 1e-5
   EXPECT_LT(largest_error(10), 1e-6);
 }
 
-TEST(TwinLanes, AreOfSecondOrder) {
+TEST(ReplicateLanes, AreOfSecondOrder) {
   double const coarse = largest_error(4), fine = largest_error(16);
   EXPECT_GT(coarse / fine, 8.0);  // 16 in theory
 }
 
-TEST(TwinLanes, StandStillWhileFrictionHolds) {
+TEST(ReplicateLanes, StandStillWhileFrictionHolds) {
   LaneState state;
-  std::fill_n(state.q, twin_lanes, 0.7);
+  std::fill_n(state.q, replicate_lanes, 0.7);
   LaneTorques torques;
-  std::fill_n(torques.forward, twin_lanes, 1.3);
-  std::fill_n(torques.backward, twin_lanes, -0.4);
+  std::fill_n(torques.forward, replicate_lanes, 1.3);
+  std::fill_n(torques.backward, replicate_lanes, -0.4);
   // lane 0 is pushed a little too hard forwards, lane 1 backwards, the others within the range
   torques.held[0] = 1.31;
   torques.held[1] = -0.41;
@@ -93,20 +93,20 @@ TEST(TwinLanes, StandStillWhileFrictionHolds) {
   advance_lanes(LaneJoint{inertia, viscous, 0.0, 0.0}, torques, 1e-4, 100, state);
   EXPECT_GT(state.dq[0], 0.0);
   EXPECT_LT(state.dq[1], 0.0);
-  for (std::size_t lane = 2; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 2; lane < replicate_lanes; ++lane) {
     EXPECT_EQ(state.q[lane], 0.7) << lane;
     EXPECT_EQ(state.dq[lane], 0.0) << lane;
     EXPECT_EQ(state.ddq[lane], 0.0) << lane;
   }
 }
 
-TEST(TwinLanes, CarryTheInertiaThatIsAddedToThem) {
+TEST(ReplicateLanes, CarryTheInertiaThatIsAddedToThem) {
   // two lanes alike but for a little inertia that one of them is given on top
   double const added = 0.25 * inertia;
   LaneTorques torques;
-  std::fill_n(torques.held, twin_lanes, 2.0);
-  std::fill_n(torques.forward, twin_lanes, coulomb);
-  std::fill_n(torques.backward, twin_lanes, -coulomb);
+  std::fill_n(torques.held, replicate_lanes, 2.0);
+  std::fill_n(torques.forward, replicate_lanes, coulomb);
+  std::fill_n(torques.backward, replicate_lanes, -coulomb);
   LaneState plain, heavy, both;
   advance_lanes(joint, torques, 1e-4, 500, plain);
   advance_lanes(LaneJoint{inertia + added, viscous, weight_sin, weight_cos}, torques, 1e-4, 500, heavy);
@@ -119,7 +119,7 @@ TEST(TwinLanes, CarryTheInertiaThatIsAddedToThem) {
   EXPECT_EQ(both.ddq[1], heavy.ddq[1]);
 }
 
-TEST(TwinLanes, HaveTheSameBitsOnEveryInstructionSet) {
+TEST(ReplicateLanes, HaveTheSameBitsOnEveryInstructionSet) {
   auto const best = lanes_after(500, 10);
   for (auto const name : kernels::supported_instruction_sets()) {
     ASSERT_TRUE(kernels::force_instruction_set(name));
@@ -129,4 +129,4 @@ TEST(TwinLanes, HaveTheSameBitsOnEveryInstructionSet) {
   kernels::release_instruction_set();
 }
 
-}  // namespace twin_lanes_test
+}  // namespace replicate_lanes_test

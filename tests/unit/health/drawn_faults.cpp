@@ -13,7 +13,7 @@
 #include "unit/health/fault_generator.hpp"
 
 namespace torquescope {
-namespace unseen_faults_test {
+namespace drawn_faults_test {
 
 using namespace health_test;
 
@@ -47,7 +47,7 @@ Said examined(FaultKind const& kind, unsigned number) {
   return said;
 }
 
-TEST(UnseenFaults, AreFoundThreeTimesInFour) {
+TEST(DrawnFaults, AreFoundThreeTimesInFour) {
   for (auto const& kind : fault_kinds()) {
     unsigned told = 0;
     std::string missed;
@@ -61,7 +61,7 @@ TEST(UnseenFaults, AreFoundThreeTimesInFour) {
   }
 }
 
-TEST(UnseenFaults, SoundRecordingsHaveNone) {
+TEST(DrawnFaults, SoundRecordingsHaveNone) {
   unsigned quiet = 0, all = 0;
   for (unsigned number = 1; number <= 200; ++number)
     for (bool const with_velocity : {false, true}) {
@@ -80,5 +80,5 @@ TEST(UnseenFaults, SoundRecordingsHaveNone) {
   std::printf("sound recordings without a warning: %u of %u\n", quiet, all);
 }
 
-}  // namespace unseen_faults_test
+}  // namespace drawn_faults_test
 }  // namespace torquescope

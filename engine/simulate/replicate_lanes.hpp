@@ -6,7 +6,7 @@
 // Steps      second-order Taylor while sliding; where a velocity meets zero the step is cut, and its rest begins with
 //            the question whether friction holds (set-valued, no smoothing). Gravity: third-order Taylor, error (q -
 //            q0)^4 / 24 of the weight, 3e-12 at 3 rad/s and 1 kHz
-// Shapes     twin_lanes replicates or trials, one lane each; unused lanes may hold anything finite
+// Shapes     replicate_lanes replicates or trials, one lane each; unused lanes may hold anything finite
 // Units      SI; held, forward, backward in N m or N
 // Bits       the same on every instruction set: additions and multiplications only, no fused ones
 // Requires   inertia + added > 0, backward <= forward, viscous step / (inertia + added) < 1
@@ -16,20 +16,21 @@
 
 namespace torquescope {
 
-inline constexpr std::size_t twin_lanes = 16;
+inline constexpr std::size_t replicate_lanes = 16;
 
 struct LaneState {
-  alignas(64) double q[twin_lanes] = {};
-  alignas(64) double dq[twin_lanes] = {};
-  alignas(64) double ddq[twin_lanes] = {};  // at the start of the last step; 0 while friction holds
+  alignas(64) double q[replicate_lanes] = {};
+  alignas(64) double dq[replicate_lanes] = {};
+  alignas(64) double ddq[replicate_lanes] = {};  // at the start of the last step; 0 while friction holds
 };
 
 // constant during a call
 struct LaneTorques {
-  alignas(64) double held[twin_lanes] = {};  // motor and disturbance, less whatever else does not depend on dq here
-  alignas(64) double forward[twin_lanes] = {};
-  alignas(64) double backward[twin_lanes] = {};
-  alignas(64) double added_inertia[twin_lanes] = {};
+  alignas(
+      64) double held[replicate_lanes] = {};  // motor and disturbance, less whatever else does not depend on dq here
+  alignas(64) double forward[replicate_lanes] = {};
+  alignas(64) double backward[replicate_lanes] = {};
+  alignas(64) double added_inertia[replicate_lanes] = {};
 };
 
 struct LaneJoint {
@@ -38,10 +39,10 @@ struct LaneJoint {
 
 // one joint a lane: replicates have the same in all, trials of a fit each its own
 struct LaneJoints {
-  alignas(64) double inertia[twin_lanes] = {};
-  alignas(64) double viscous[twin_lanes] = {};
-  alignas(64) double gravity_sin[twin_lanes] = {};
-  alignas(64) double gravity_cos[twin_lanes] = {};
+  alignas(64) double inertia[replicate_lanes] = {};
+  alignas(64) double viscous[replicate_lanes] = {};
+  alignas(64) double gravity_sin[replicate_lanes] = {};
+  alignas(64) double gravity_cos[replicate_lanes] = {};
   bool has_weight = false;  // any lane
 
   LaneJoints() = default;

@@ -1,6 +1,6 @@
-// Twins of a recording.
+// Replicates of a recording.
 
-#include "engine/simulate/clean_twin.hpp"
+#include "engine/simulate/replicate_simulator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 using namespace torquescope;
 using torquescope::test::plant;
 
-namespace clean_twin_test {
+namespace replicate_simulator_test {
 
 constexpr double encoder_step = 2.0 * 3.14159265358979323846 / 400000.0;
 std::vector<std::string> const terms{"inertia", "viscous", "coulomb", "offset", "gravity"};
@@ -41,56 +41,57 @@ SimulationPlan plan_of(std::string const& kind) {
   return plan;
 }
 
-TwinTrack track_of(SimulatedRecording const& recording) {
+ReplicateTrack track_of(SimulatedRecording const& recording) {
   return {recording.rate_hz, recording.reference, recording.position[0], 0.0};
 }
 
-CleanTwin twin_of(SimulatedRecording const& recording, TwinJoint const& joint, double step_s = 1e-4) {
+ReplicateSimulator replicate_of(SimulatedRecording const& recording, ReplicateJoint const& joint,
+                                double step_s = 1e-4) {
   auto const fit = fit_controller({recording.time_s, recording.reference, recording.position, recording.torque});
   return {joint, {fit.law, encoder_step, fit.noise}, track_of(recording), step_s};
 }
 
-CleanTwin twin_of(SimulatedRecording const& recording) {
-  return twin_of(recording, make_twin_joint(Regressor(terms, JointKind::revolute), truth()));
+ReplicateSimulator replicate_of(SimulatedRecording const& recording) {
+  return replicate_of(recording, make_replicate_joint(Regressor(terms, JointKind::revolute), truth()));
 }
 
 double rms(Eigen::VectorXd const& values) {
   return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
 
-class EveryTwin : public testing::TestWithParam<std::string> {};
+class EveryReplicate : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryTwin, FollowsTheRecordedPositionToAboutOneEncoderStep) {
+TEST_P(EveryReplicate, FollowsTheRecordedPositionToAboutOneEncoderStep) {
   auto const recording = simulate_joint(plan_of(GetParam()), 3);
-  TwinGroup group;
-  twin_of(recording).simulate({1, 0, 0}, 0, group);
-  for (std::size_t lane : {std::size_t{0}, twin_lanes - 1}) {
+  ReplicateGroup group;
+  replicate_of(recording).simulate({1, 0, 0}, 0, group);
+  for (std::size_t lane : {std::size_t{0}, replicate_lanes - 1}) {
     EXPECT_FALSE(group.ran_away[lane]);
     EXPECT_LT(rms(group.position[lane] - recording.position), encoder_step);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Kinds, EveryTwin, testing::Values("pd", "pid", "p_velocity"));
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryReplicate, testing::Values("pd", "pid", "p_velocity"));
 
-TEST(CleanTwin, HasTheSameBitsWhateverWasSimulatedBefore) {
+TEST(ReplicateSimulator, HasTheSameBitsWhateverWasSimulatedBefore) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
-  auto const twin = twin_of(recording);
-  TwinGroup used, fresh;
-  twin.simulate({1, 0, 0}, 7, used);
-  twin.simulate({1, 0, 0}, 2, used);
-  twin.simulate({1, 0, 0}, 2, fresh);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  auto const replicate = replicate_of(recording);
+  ReplicateGroup used, fresh;
+  replicate.simulate({1, 0, 0}, 7, used);
+  replicate.simulate({1, 0, 0}, 2, used);
+  replicate.simulate({1, 0, 0}, 2, fresh);
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     EXPECT_EQ(used.position[lane], fresh.position[lane]);
     EXPECT_EQ(used.torque[lane], fresh.torque[lane]);
   }
 }
 
-TEST(CleanTwin, HasNoiseOfItsOwnInEveryLaneGroupAndSet) {
+TEST(ReplicateSimulator, HasNoiseOfItsOwnInEveryLaneGroupAndSet) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
-  auto const twin = twin_of(recording);
-  TwinGroup group, next, other_set;
-  twin.simulate({1, 0, 0}, 0, group);
-  twin.simulate({1, 0, 0}, 1, next);
-  twin.simulate({1, 0, 1}, 0, other_set);
+  auto const replicate = replicate_of(recording);
+  ReplicateGroup group, next, other_set;
+  replicate.simulate({1, 0, 0}, 0, group);
+  replicate.simulate({1, 0, 0}, 1, next);
+  replicate.simulate({1, 0, 1}, 0, other_set);
   Eigen::VectorXd const noise = group.torque[0] - recording.torque;
   auto const correlation = [&](Eigen::VectorXd const& torque) {
     Eigen::VectorXd const other = torque - recording.torque;
@@ -101,21 +102,21 @@ TEST(CleanTwin, HasNoiseOfItsOwnInEveryLaneGroupAndSet) {
     EXPECT_NEAR(correlation(*torque), 0.5, 0.1);
 }
 
-TEST(CleanTwin, DrawsAStickingLawForEveryLaneWhereItIsUnknown) {
+TEST(ReplicateSimulator, DrawsAStickingLawForEveryLaneWhereItIsUnknown) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
-  auto const held = twin_of(recording);
-  TwinLoop loop = held.loop();
+  auto const held = replicate_of(recording);
+  ReplicateLoop loop = held.loop();
   loop.torque_noise = white(0.0);
   loop.encoder_step = 0.0;
-  CleanTwin const exact(held.joint(), loop, held.track(), held.step_s());
+  ReplicateSimulator const exact(held.joint(), loop, held.track(), held.step_s());
   loop.sticking = {1e-4, 2e-2, 3.0 * encoder_step};
-  CleanTwin const drawn(held.joint(), loop, held.track(), held.step_s());
-  TwinGroup at_once, group, again;
+  ReplicateSimulator const drawn(held.joint(), loop, held.track(), held.step_s());
+  ReplicateGroup at_once, group, again;
   exact.simulate({1, 0, 0}, 3, at_once);
   drawn.simulate({1, 0, 0}, 3, group);
   drawn.simulate({1, 0, 0}, 3, again);
   double least = 1e9, most = 0.0;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     EXPECT_FALSE(group.ran_away[lane]);
     EXPECT_EQ(group.torque[lane], again.torque[lane]);
     double const apart = rms(group.torque[lane] - at_once.torque[lane]);
@@ -127,38 +128,38 @@ TEST(CleanTwin, DrawsAStickingLawForEveryLaneWhereItIsUnknown) {
   EXPECT_LT(least, 0.01 * 1.3);
 }
 
-TEST(CleanTwin, IsTheSameWithATermInTheLanesOrAsAnEffect) {
+TEST(ReplicateSimulator, IsTheSameWithATermInTheLanesOrAsAnEffect) {
   // viscous friction and weight as effects: evaluated at the foreseen middle of the step instead of inside it
   auto const recording = simulate_joint(plan_of("pd"), 3);
-  TwinJoint const whole = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
-  TwinJoint split = whole;
+  ReplicateJoint const whole = make_replicate_joint(Regressor(terms, JointKind::revolute), truth());
+  ReplicateJoint split = whole;
   split.lanes.viscous = split.lanes.gravity_sin = split.lanes.gravity_cos = 0.0;
   split.coulomb_forward -= 0.5;
   split.coulomb_backward += 0.5;
   split.effects = {lane_effect(*find_effect("viscous"), {0.164}, {}),
                    lane_effect(*find_effect("gravity"), {0.4, 0.2}, {}),
                    lane_effect(*find_effect("coulomb"), {0.5}, {})};
-  TwinGroup one, two;
-  twin_of(recording, whole).simulate({1, 0, 0}, 0, one);
-  twin_of(recording, split).simulate({1, 0, 0}, 0, two);
+  ReplicateGroup one, two;
+  replicate_of(recording, whole).simulate({1, 0, 0}, 0, one);
+  replicate_of(recording, split).simulate({1, 0, 0}, 0, two);
   EXPECT_LT(rms(one.position[0] - two.position[0]), 0.5 * encoder_step);
 }
 
 // Large parts that cancel, as fits of a law that is nearly another one have them, in a slow log: held for a tick of 10
 // ms the one would be late beside the other, and the joint would seem heavier
-TEST(CleanTwin, IsTheSameWithLargePartsThatCancel) {
+TEST(ReplicateSimulator, IsTheSameWithLargePartsThatCancel) {
   auto plan = plan_of("pd");
   plan.simulation.rate_hz = 100.0;
   plan.controller.bandwidth_hz = 2.0;
   auto const recording = simulate_joint(plan, 3);
-  TwinJoint const whole = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
-  TwinJoint split = whole;
+  ReplicateJoint const whole = make_replicate_joint(Regressor(terms, JointKind::revolute), truth());
+  ReplicateJoint split = whole;
   split.lanes.viscous -= 3.0;
   split.effects = {lane_effect(*find_effect("viscous"), {3.0}, {})};
-  TwinGroup one, two;
-  CleanTwin const twin = twin_of(recording, whole);
-  twin.simulate({1, 0, 0}, 0, one);
-  CleanTwin(split, twin.loop(), twin.track(), 1e-4).simulate({1, 0, 0}, 0, two);
+  ReplicateGroup one, two;
+  ReplicateSimulator const replicate = replicate_of(recording, whole);
+  replicate.simulate({1, 0, 0}, 0, one);
+  ReplicateSimulator(split, replicate.loop(), replicate.track(), 1e-4).simulate({1, 0, 0}, 0, two);
   // 0.025 were it held for the tick
   EXPECT_LT(rms(one.torque[0] - two.torque[0]), 0.002 * rms(one.torque[0]));
 }
@@ -168,10 +169,10 @@ class Shifted final : public LaneEffect {
  public:
   Shifted(double position, double torque) : position_(position), torque_(torque) {}
   void shift_position(LaneInstant const&, double* position) override {
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] += position_;
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) position[lane] += position_;
   }
   void shift_torque(LaneInstant const& at, double* torque) override {
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       // called at the tick, with the command of this very tick
       EXPECT_NEAR(torque[lane], at.motor_torque[lane], 0.2);
       torque[lane] += torque_;
@@ -182,29 +183,29 @@ class Shifted final : public LaneEffect {
   double position_, torque_;
 };
 
-TEST(CleanTwin, HoldsThePlainFormOfALawThatHasShapes) {
+TEST(ReplicateSimulator, HoldsThePlainFormOfALawThatHasShapes) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   auto with_spring = std::vector<std::string>(terms.begin(), terms.end());
   with_spring.emplace_back("spring");
   Eigen::VectorXd parameters(truth().size() + 1);
   parameters << truth(), 0.3;
-  TwinJoint apart = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
+  ReplicateJoint apart = make_replicate_joint(Regressor(terms, JointKind::revolute), truth());
   apart.effects.push_back(lane_effect(*find_effect("spring"), {0.3, 0.0, 0.7}, {}));
-  TwinGroup one, two;
-  twin_of(recording, make_twin_joint(Regressor(with_spring, JointKind::revolute), parameters))
+  ReplicateGroup one, two;
+  replicate_of(recording, make_replicate_joint(Regressor(with_spring, JointKind::revolute), parameters))
       .simulate({1, 0, 0}, 0, one);
-  twin_of(recording, apart).simulate({1, 0, 0}, 0, two);
+  replicate_of(recording, apart).simulate({1, 0, 0}, 0, two);
   EXPECT_EQ(one.position[0], two.position[0]);
 }
 
-TEST(CleanTwin, SeesAPositionFaultInTheLoopAndATorqueFaultInTheLogOnly) {
+TEST(ReplicateSimulator, SeesAPositionFaultInTheLoopAndATorqueFaultInTheLogOnly) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
-  TwinJoint const sound = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
+  ReplicateJoint const sound = make_replicate_joint(Regressor(terms, JointKind::revolute), truth());
   auto const group_with = [&](double position, double torque) {
-    TwinJoint joint = sound;
+    ReplicateJoint joint = sound;
     joint.effects = {[=] { return std::make_unique<Shifted>(position, torque); }};
-    TwinGroup group;
-    twin_of(recording, joint).simulate({1, 0, 0}, 0, group);
+    ReplicateGroup group;
+    replicate_of(recording, joint).simulate({1, 0, 0}, 0, group);
     return group;
   };
   auto const none = group_with(0.0, 0.0), torque = group_with(0.0, 0.3), position = group_with(0.01, 0.0);
@@ -217,70 +218,70 @@ TEST(CleanTwin, SeesAPositionFaultInTheLoopAndATorqueFaultInTheLogOnly) {
 }
 
 // a joint alone takes a step per tick; beside a law with a memory, here one that gives nothing, it takes fifty
-TEST(CleanTwin, DoesNotDependOnItsStep) {
+TEST(ReplicateSimulator, DoesNotDependOnItsStep) {
   for (double rate_hz : {1000.0, 200.0}) {
     SimulationPlan plan = plan_of("pd");
     plan.simulation.rate_hz = rate_hz;
     plan.controller.bandwidth_hz = 0.008 * rate_hz;
     auto const recording = simulate_joint(plan, 3);
-    TwinJoint const alone = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
-    TwinJoint beside = alone;
+    ReplicateJoint const alone = make_replicate_joint(Regressor(terms, JointKind::revolute), truth());
+    ReplicateJoint beside = alone;
     beside.effects = {[] { return std::make_unique<Shifted>(0.0, 0.0); }};
-    TwinGroup coarse, fine;
-    twin_of(recording, alone).simulate({1, 0, 0}, 0, coarse);
-    twin_of(recording, beside, 2e-5).simulate({1, 0, 0}, 0, fine);
+    ReplicateGroup coarse, fine;
+    replicate_of(recording, alone).simulate({1, 0, 0}, 0, coarse);
+    replicate_of(recording, beside, 2e-5).simulate({1, 0, 0}, 0, fine);
     // encoder and loop make one step of the least differences: below one step all the same
     EXPECT_LT(rms(coarse.position[0] - fine.position[0]), 0.5 * encoder_step) << rate_hz;
   }
 }
 
 // of an arm: what the law gives to the other joints does not move this one, and is not in its torque
-TEST(CleanTwin, GivesOtherJointsTheirLoadBesideItsOwnTorque) {
+TEST(ReplicateSimulator, GivesOtherJointsTheirLoadBesideItsOwnTorque) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
-  CleanTwin const alone = twin_of(recording);
-  TwinLoop loop = alone.loop();
-  TwinTrack track = alone.track();
+  ReplicateSimulator const alone = replicate_of(recording);
+  ReplicateLoop loop = alone.loop();
+  ReplicateTrack track = alone.track();
   track.gear_load = 5.0 * (3.0 * recording.time_s.array()).sin();
   loop.law.gear_load = {1.0, 0.0};
-  TwinGroup plain, beside, unfed;
+  ReplicateGroup plain, beside, unfed;
   alone.simulate({1, 0, 0}, 0, plain);
-  CleanTwin(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, beside);
+  ReplicateSimulator(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, beside);
   EXPECT_LT((beside.torque[0] - plain.torque[0]).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LT((beside.position[0] - plain.position[0]).cwiseAbs().maxCoeff(), 1.01 * encoder_step);
   // a law that does not feed it forward lets the joint give way to it
   loop.law.gear_load = {0.0, 0.0};
-  CleanTwin(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, unfed);
+  ReplicateSimulator(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, unfed);
   EXPECT_GT(rms(unfed.position[0] - plain.position[0]), 100.0 * encoder_step);
   // what runs away is the torque of the drive
   track.largest_torque = 6.0;
   loop.law.gear_load = {1.0, 0.0};
   track.gear_load.setConstant(100.0);
-  CleanTwin(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, beside);
+  ReplicateSimulator(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, beside);
   EXPECT_TRUE(beside.ran_away[0]);
 }
 
-TEST(CleanTwin, SaysThatItRanAway) {
+TEST(ReplicateSimulator, SaysThatItRanAway) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
-  TwinJoint const joint = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
-  auto const sound = twin_of(recording);
-  TwinLoop loop = sound.loop();
+  ReplicateJoint const joint = make_replicate_joint(Regressor(terms, JointKind::revolute), truth());
+  auto const sound = replicate_of(recording);
+  ReplicateLoop loop = sound.loop();
   for (auto& gain : loop.law.position) gain *= -1.0;
-  TwinTrack track = sound.track();
+  ReplicateTrack track = sound.track();
   track.largest_torque = 3.0 * recording.torque.cwiseAbs().maxCoeff();
-  TwinGroup group;
-  CleanTwin(joint, loop, track, 1e-4).simulate({1, 0, 0}, 0, group);
+  ReplicateGroup group;
+  ReplicateSimulator(joint, loop, track, 1e-4).simulate({1, 0, 0}, 0, group);
   for (bool one : group.ran_away) EXPECT_TRUE(one);
 }
 
 TEST(TrackingLaw, FollowsAMotionThatHasNoReference) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
-  TwinJoint const joint = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
-  TwinTrack track = track_of(recording);
+  ReplicateJoint const joint = make_replicate_joint(Regressor(terms, JointKind::revolute), truth());
+  ReplicateTrack track = track_of(recording);
   track.reference = recording.true_position;
-  CleanTwin const twin(joint, {tracking_law({joint.lanes.inertia}, 30.0, {1000.0}), encoder_step, white(0.02)}, track,
-                       1e-4);
-  TwinGroup group;
-  twin.simulate({1, 0, 0}, 0, group);
+  ReplicateSimulator const replicate(
+      joint, {tracking_law({joint.lanes.inertia}, 30.0, {1000.0}), encoder_step, white(0.02)}, track, 1e-4);
+  ReplicateGroup group;
+  replicate.simulate({1, 0, 0}, 0, group);
   // friction of 1.3 N m over a stiffness of J omega^2 = 1280 N m/rad
   double const by_error = rms(group.position[0] - recording.position);
   double const torque_by_error = rms(group.torque[0] - recording.torque);
@@ -291,16 +292,16 @@ TEST(TrackingLaw, FollowsAMotionThatHasNoReference) {
   TrackedJoint const known{
       lanes.inertia,     lanes.viscous,    joint.coulomb_forward + joint.offset, joint.coulomb_backward + joint.offset,
       lanes.gravity_sin, lanes.gravity_cos};
-  CleanTwin(joint, {tracking_law(known, 30.0, {1000.0, 1e-3}), encoder_step, white(0.02)}, track, 1e-4)
+  ReplicateSimulator(joint, {tracking_law(known, 30.0, {1000.0, 1e-3}), encoder_step, white(0.02)}, track, 1e-4)
       .simulate({1, 0, 0}, 0, group);
   EXPECT_LT(rms(group.position[0] - recording.position), 0.1 * by_error);
   EXPECT_LT(rms(group.torque[0] - recording.torque), 0.7 * torque_by_error);
 }
 
-TEST(CleanTwin, FeedsForwardWhatItsLawSays) {
+TEST(ReplicateSimulator, FeedsForwardWhatItsLawSays) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
-  auto const plain = twin_of(recording);
-  TwinLoop quiet = plain.loop();
+  auto const plain = replicate_of(recording);
+  ReplicateLoop quiet = plain.loop();
   quiet.torque_noise = quiet.slow_torque_noise = white(0.0);
   quiet.disturbance_std = quiet.position_noise_std = quiet.friction_wander = quiet.encoder_step = 0.0;
   quiet.law.position.assign(1, 0.0);
@@ -309,12 +310,12 @@ TEST(CleanTwin, FeedsForwardWhatItsLawSays) {
   double const friction = 0.6, width = 1e-4, gravity = 0.3;
   quiet.law.terms = {{ReferenceShape::smooth_sign, 0, 2, width, friction},
                      {ReferenceShape::cosine, 1, 1, 1.0, gravity}};
-  TwinGroup group;
-  CleanTwin(plain.joint(), quiet, plain.track(), 1e-4).simulate({1, 0, 0}, 0, group);
+  ReplicateGroup group;
+  ReplicateSimulator(plain.joint(), quiet, plain.track(), 1e-4).simulate({1, 0, 0}, 0, group);
   auto const& r = recording.reference;
   for (Eigen::Index k = 2; k + 1 < r.size(); k += 97)
     EXPECT_DOUBLE_EQ(group.torque[0][k],
                      friction * std::tanh(0.5 * (r[k] - r[k - 2]) / width) + gravity * std::cos(r[k + 1]));
 }
 
-}  // namespace clean_twin_test
+}  // namespace replicate_simulator_test

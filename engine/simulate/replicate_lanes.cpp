@@ -1,11 +1,11 @@
-#include "engine/simulate/twin_lanes.hpp"
+#include "engine/simulate/replicate_lanes.hpp"
 
 #include "kernels/dispatch-inl.hpp"
 #include "kernels/elementary.hpp"
 
 // the part up to HWY_ONCE is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "engine/simulate/twin_lanes.cpp"
+#define HWY_TARGET_INCLUDE "engine/simulate/replicate_lanes.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <bool has_weight>
 void advance(LaneAccelerations const& accelerations, double step_s, std::size_t steps, LaneState& state) {
   V const step = hn::Set(d, step_s);
-  for (std::size_t first = 0; first < twin_lanes; first += n_vectors * vector_lanes) {
+  for (std::size_t first = 0; first < replicate_lanes; first += n_vectors * vector_lanes) {
     V q[n_vectors], dq[n_vectors], ddq[n_vectors];
     for (std::size_t i = 0; i < n_vectors; ++i) {
       q[i] = hn::Load(d, state.q + first + i * vector_lanes);
@@ -63,7 +63,7 @@ TORQUESCOPE_EXPORT(advance_heavy);
 }  // namespace
 
 LaneJoints::LaneJoints(LaneJoint const& same) {
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) set(lane, same);
+  for (std::size_t lane = 0; lane < replicate_lanes; ++lane) set(lane, same);
 }
 
 void LaneJoints::set(std::size_t lane, LaneJoint const& joint) {
@@ -77,8 +77,8 @@ void LaneJoints::set(std::size_t lane, LaneJoint const& joint) {
 void advance_lanes(LaneJoints const& joints, LaneTorques const& torques, double step_s, std::size_t steps,
                    LaneState& state) {
   if (!joints.has_weight) return TORQUESCOPE_DISPATCH(advance_light)(joints, torques, step_s, steps, state);
-  alignas(64) double sine[twin_lanes], cosine[twin_lanes];
-  kernels::cosine_sine_of_multiple(1.0, state.q, twin_lanes, cosine, sine);
+  alignas(64) double sine[replicate_lanes], cosine[replicate_lanes];
+  kernels::cosine_sine_of_multiple(1.0, state.q, replicate_lanes, cosine, sine);
   TORQUESCOPE_DISPATCH(advance_heavy)(joints, torques, sine, cosine, step_s, steps, state);
 }
 
