@@ -11,7 +11,7 @@
 //            pseudo-inertia; squares of torque and a weak pull towards a prior
 // Noise      2 % of the signal's rms; the least value is above 0 and not at the truth
 // Random     addressed by instance
-// Source     laws: engine/effects; dynamics: engine/robot; loop: engine/simulate; divergence: pseudo_inertia.hpp
+// Source     effects: engine/effects; dynamics: engine/robot; loop: engine/simulate; divergence: pseudo_inertia.hpp
 
 #include <cstdint>
 #include <functional>

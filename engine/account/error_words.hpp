@@ -20,7 +20,7 @@ std::string floor_words(double relerr, double floor);
 // and rests, is left out of that; with it the relerr is 38 % to 46 %"; "" where nothing is left out or it is not known
 std::string left_out_clause(LeftOut const& left_out);
 
-// "Validation error 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded. Where the
+// "Validation error 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where no validation was recorded. Where the
 // validation error stays far above its floor whatever was named, that is said
 std::string gain_sentence(JointDiagnosis const& joint);
 

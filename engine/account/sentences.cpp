@@ -94,8 +94,8 @@ double creep_of(JointDiagnosis const& joint, EffectParameter const& parameter) {
   return 0.0;
 }
 
-// "from 14.7 s on": of a law that begins at an instant and stays. "" where it has another shape beside the instant (a
-// push ends), or creeps by more than it steps
+// "from 14.7 s on": of an effect that begins at an instant and stays. "" where it has another shape beside the instant
+// (a push ends), or creeps by more than it steps
 std::string onset_phrase(JointDiagnosis const& joint, NamedEffect const& effect) {
   Effect const* known = find_effect(effect.name);
   MapCell const time = range_of(joint, SignatureAxis::time);

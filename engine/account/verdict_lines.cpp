@@ -228,8 +228,9 @@ VerdictLines arm_lines(Diagnosis const& diagnosis) {
 
 std::string headline_of(Diagnosis const& diagnosis) {
   if (diagnosis.joints.empty()) return without_full_stop(diagnosis.reason);
-  bool const has_laws = diagnosis.arm && !diagnosis.arm->effects.empty();
-  if (diagnosis.joints.size() > 1) return has_laws ? arm_lines(diagnosis).what : joints_with_answers(diagnosis.joints);
+  bool const has_effects = diagnosis.arm && !diagnosis.arm->effects.empty();
+  if (diagnosis.joints.size() > 1)
+    return has_effects ? arm_lines(diagnosis).what : joints_with_answers(diagnosis.joints);
   return what_of(diagnosis, diagnosis.joints.front(), diagnosis.verdict);
 }
 

@@ -13,16 +13,16 @@
 namespace torquescope {
 
 struct GivenSignals {
-  struct Law {
+  struct Effect {
     std::string name{};
     Eigen::MatrixXd columns{};
   };
-  std::vector<Law> laws{};
+  std::vector<Effect> effects{};
 
   // nullptr: the recording tells nothing of that effect
-  Eigen::MatrixXd const* of(std::string const& law) const {
-    for (Law const& one : laws)
-      if (one.name == law) return &one.columns;
+  Eigen::MatrixXd const* of(std::string const& effect) const {
+    for (Effect const& one : effects)
+      if (one.name == effect) return &one.columns;
     return nullptr;
   }
 };

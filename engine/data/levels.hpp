@@ -91,7 +91,7 @@ inline double made_up_share(std::size_t held) {
 // convention: holds of so many rows count without the speed before them; derived: the row after makes up for them
 inline constexpr std::size_t shortest_hold = 2;
 inline constexpr double way_after_hold = static_cast<double>(shortest_hold + 1);
-// convention: rows around a hold that say how fast the joint goes, and how much faster it may have gone unseen
+// convention: rows around a hold that say how fast the joint goes, and how much faster it may have gone unnoticed
 inline constexpr std::size_t rows_around_hold = 50;
 inline constexpr double faster_unnoticed = 1.5;
 // convention: repeated rows are worth saying from three of them, and one in a thousand

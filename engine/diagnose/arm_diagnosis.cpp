@@ -16,8 +16,8 @@
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/whole_arm_account.hpp"
 #include "engine/diagnose/whole_arm_stage.hpp"
-#include "engine/infer/all_rows/delay_decision.hpp"
-#include "engine/infer/all_rows/pooled_rows.hpp"
+#include "engine/infer/decision/delay_decision.hpp"
+#include "engine/infer/decision/pooled_rows.hpp"
 
 namespace torquescope {
 namespace {
@@ -33,7 +33,7 @@ struct JointOfArm {
 struct DecidedRows {
   PooledRows baseline{}, final{};
   std::vector<PooledRows> without{};
-  std::vector<Effect const*> laws{};
+  std::vector<Effect const*> effects{};
 };
 
 class ArmWork {
@@ -57,10 +57,10 @@ class ArmWork {
   }
 
   Diagnosis run() && {
-    take_laws_of_whole_arm();
+    take_effects_of_whole_arm();
     decide_all();
     // what joints lacked may have hidden what the whole arm lacks
-    if (names_anything() && take_laws_of_whole_arm()) decide_all();
+    if (names_anything() && take_effects_of_whole_arm()) decide_all();
     refute();
     put_errors();
     Diagnosis diagnosis;
@@ -74,7 +74,7 @@ class ArmWork {
       joint.reason = std::move(outcome.reason);
       diagnosis.joints.push_back(std::move(joint));
     }
-    credit_laws_of_whole_arm(answers_, input_.numbers.most_of_it, diagnosis.joints);
+    credit_effects_of_whole_arm(answers_, input_.numbers.most_of_it, diagnosis.joints);
     diagnosis.verdict = verdict_of_arm(diagnosis.joints, diagnosis.arm->effects);
     diagnosis.reason = arm_reason_sentence(diagnosis);
     return diagnosis;
@@ -84,11 +84,11 @@ class ArmWork {
   std::size_t training() const { return input_.train.size(); }
 
   // whether any were found
-  bool take_laws_of_whole_arm() {
+  bool take_effects_of_whole_arm() {
     if (progress_) progress_("whole arm", 0, 1);
-    answers_.push_back(laws_of_whole_arm(input_, {arm_.laws, arm_.rows, arm_.noise()}));
+    answers_.push_back(effects_of_whole_arm(input_, {arm_.effects, arm_.rows, arm_.noise()}));
     auto const& accepted = answers_.back().accepted;
-    if (!accepted.empty()) arm_ = learnt_arm(input_, without_laws(input_, arm_.files, filter_, accepted), filter_);
+    if (!accepted.empty()) arm_ = learnt_arm(input_, without_effects(input_, arm_.files, filter_, accepted), filter_);
     if (progress_) progress_("whole arm", 1, 1);
     return !accepted.empty();
   }
@@ -98,7 +98,7 @@ class ArmWork {
   }
 
   bool names_anything() const {
-    return std::any_of(decided_.begin(), decided_.end(), [](auto const& one) { return one && !one->laws.empty(); });
+    return std::any_of(decided_.begin(), decided_.end(), [](auto const& one) { return one && !one->effects.empty(); });
   }
 
   JointOfArm joint_of(std::size_t j) const {
@@ -120,8 +120,9 @@ class ArmWork {
     DiagnosisInput input{joint.recordings.front(), others, joint.regressor, input_.filter, input_.filter_section};
     input.candidates = input_.candidates[j];
     input.max_effects = input_.max_effects;
-    std::erase_if(input.candidates,
-                  [&](Effect const* law) { return std::find(refuted.begin(), refuted.end(), law) != refuted.end(); });
+    std::erase_if(input.candidates, [&](Effect const* effect) {
+      return std::find(refuted.begin(), refuted.end(), effect) != refuted.end();
+    });
     input.numbers = input_.numbers;
     input.numbers.alpha = input_.numbers.alpha_of_joint(joints_);
     input.seed = input_.seed + j;  // replicates of one joint have nothing in common with those of another
@@ -145,12 +146,12 @@ class ArmWork {
   }
 
   void keep(std::size_t j, JointDecision const& made) {
-    SharedLaw const law = shared_masses(input_.model, j, rigid_arm_name);
+    SharedEffect const effect = shared_masses(input_.model, j, rigid_arm_name);
     DecidedRows rows;
     bool const names_delay = made.facts.delay.is_named;
-    rows.baseline = names_delay ? pooled_rows(made.rows, at_allowed_delay(made.rows, made.baseline), law)
-                                : pooled_rows(made.rows, made.baseline, law);
-    rows.final = pooled_rows(made.rows, made.final, law);
+    rows.baseline = names_delay ? pooled_rows(made.rows, at_allowed_delay(made.rows, made.baseline), effect)
+                                : pooled_rows(made.rows, made.baseline, effect);
+    rows.final = pooled_rows(made.rows, made.final, effect);
     JointModel const& model = *made.final.model;
     for (std::size_t i = 0; i < made.facts.accepted.size(); ++i) {
       auto effects = model.effects();
@@ -158,11 +159,11 @@ class ArmWork {
       FittedModel const without =
           fitted_model(made.rows, model.regressor(), std::move(effects), made.final.fitted.get(),
                        {DelaySearch::everywhere, DecisionNumbers{}.longest_delay_s});
-      rows.without.push_back(pooled_rows(made.rows, without, law));
-      rows.laws.push_back(made.facts.accepted[i].effect);
+      rows.without.push_back(pooled_rows(made.rows, without, effect));
+      rows.effects.push_back(made.facts.accepted[i].effect);
     }
     decided_[j] = std::move(rows);
-    arm_.rows[j] = rows_for_whole_arm(arm_, made.rows, made.final, law, j);
+    arm_.rows[j] = rows_for_whole_arm(arm_, made.rows, made.final, effect, j);
   }
 
   // of all joints that were decided, as named; one of them with other rows
@@ -178,8 +179,8 @@ class ArmWork {
     return pooled_errors(rows, variances);
   }
 
-  std::optional<std::size_t> refuted_law(std::size_t j, double judged) const {
-    for (std::size_t i = 0; i < decided_[j]->laws.size(); ++i)
+  std::optional<std::size_t> refuted_effect(std::size_t j, double judged) const {
+    for (std::size_t i = 0; i < decided_[j]->effects.size(); ++i)
       if (!(judged < together(&DecidedRows::final, j, &decided_[j]->without[i]).judged)) return i;
     return std::nullopt;
   }
@@ -188,10 +189,10 @@ class ArmWork {
     if (!names_anything()) return;
     for (std::size_t j = 0; j < joints_; ++j) {
       std::vector<Effect const*> refuted;
-      while (decided_[j] && !decided_[j]->laws.empty()) {
-        auto const law = refuted_law(j, together(&DecidedRows::final).judged);
-        if (!law) break;
-        refuted.push_back(decided_[j]->laws[*law]);
+      while (decided_[j] && !decided_[j]->effects.empty()) {
+        auto const effect = refuted_effect(j, together(&DecidedRows::final).judged);
+        if (!effect) break;
+        refuted.push_back(decided_[j]->effects[*effect]);
         decide(j, refuted);
       }
     }

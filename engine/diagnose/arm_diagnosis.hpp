@@ -2,14 +2,14 @@
 // The diagnosis of an arm: what several joints feel at once, then each joint by the same rules as a joint alone.
 //
 // Joint      its own friction and inertia, and the columns of the arm's row as far as its own rows tell them; along
-//            other directions the masses are those that the other joints' rows tell (all_rows/shared_columns.hpp)
+//            other directions the masses are those that the other joints' rows tell (decision/shared_columns.hpp)
 // Pooled     the joints' models fitted once more together, with one set of masses: errors are of it, an effect that
 //            does not lower what it leaves on judged rows is refuted, and a joint whose own masses do far better is
 //            unexplained
 // Chance     alpha over the whole arm and its joints (DecisionNumbers::alpha_of_joint)
 // Errors     Error 65, 78 as the parts; what a joint's rows are to blame for is that joint's verdict
 // Threads    spreads work over `threads`; same bits for any number
-// Source     engine/infer/all_rows/THEORY.md, Arms
+// Source     engine/infer/decision/THEORY.md, Arms
 
 #include <vector>
 

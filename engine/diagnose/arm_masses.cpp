@@ -27,11 +27,11 @@ MassesOfJoint masses_of_joint(ArmDiagnosisInput const& input, LearntArm const& a
     JointStrips const strips = joint_strips(question);
     FittedModel const free =
         fitted_model(strips, regressor, {}, nullptr, {DelaySearch::everywhere, question.numbers.longest_delay_s});
-    SharedLaw const law = shared_masses(input.model, joint, rigid_rows_name);
-    SharedRows const rows = shared_rows(*free.fitted, law);
+    SharedEffect const effect = shared_masses(input.model, joint, rigid_rows_name);
+    SharedRows const rows = shared_rows(*free.fitted, effect);
     told.variance = independent_variance(rows);
     told.information = information_of(rows, told.variance);
-    told.rows = rows_for_whole_arm(arm, strips, free, law, joint);
+    told.rows = rows_for_whole_arm(arm, strips, free, effect, joint);
     return std::nullopt;
   });
   return told;
@@ -39,14 +39,15 @@ MassesOfJoint masses_of_joint(ArmDiagnosisInput const& input, LearntArm const& a
 
 }  // namespace
 
-SharedLaw shared_masses(ArmModel const& model, std::size_t joint, char const* instead_of) {
+SharedEffect shared_masses(ArmModel const& model, std::size_t joint, char const* instead_of) {
   return {rigid_rows_name, instead_of, rigid_parameters(model, joint), static_cast<Eigen::Index>(model.size())};
 }
 
 std::optional<ArmRowsOfJoint> rows_for_whole_arm(LearntArm const& arm, JointStrips const& strips,
-                                                 FittedModel const& model, SharedLaw const& law, std::size_t joint) {
-  if (arm.laws.empty()) return std::nullopt;
-  return rows_of_joint({joint, strips, model, law, arm.files.begins_s(joint)}, law_columns(arm.laws));
+                                                 FittedModel const& model, SharedEffect const& effect,
+                                                 std::size_t joint) {
+  if (arm.effects.empty()) return std::nullopt;
+  return rows_of_joint({joint, strips, model, effect, arm.files.begins_s(joint)}, effect_columns(arm.effects));
 }
 
 Eigen::VectorXd LearntArm::noise() const {
@@ -59,7 +60,7 @@ LearntArm learnt_arm(ArmDiagnosisInput const& input, std::vector<RecordedArm> ar
   arm.files = arm_files(input, std::move(arms), filter);
   arm.recordings.resize(joints);
   JointsOfArm alone = joints_of(arm.files, input.model, filter, input.threads);
-  arm.laws = std::move(alone.laws);
+  arm.effects = std::move(alone.effects);
   for (auto& file : alone.files)
     for (std::size_t j = 0; j < joints; ++j) arm.recordings[j].push_back(std::move(file[j]));
   for (std::size_t j = 0; j < joints; ++j) {

@@ -5,8 +5,8 @@
 
 #include "engine/base/parallel.hpp"
 #include "engine/data/from_zero.hpp"
-#include "engine/infer/all_rows/law_shape.hpp"
-#include "engine/infer/all_rows/sticking_shape.hpp"
+#include "engine/infer/decision/effect_shape.hpp"
+#include "engine/infer/decision/sticking_shape.hpp"
 #include "engine/infer/pipeline/simulator_gap.hpp"
 
 namespace torquescope {
@@ -36,7 +36,7 @@ PlainRecordings less_simulator(DiagnosisInput const& input) {
 // of candidates at their shapes, as the model treats the samples of one recording
 RecordColumns record_columns(std::string name, FittedModel const& by, Strip const& strip,
                              std::vector<ShapedCandidate> const& candidates) {
-  auto const& filter = *strip.filters->laws;
+  auto const& filter = *strip.filters->effects;
   ModelOnStrips const on(*by.model, {&strip, 1});
   auto const samples =
       treated_samples(on, 0.0, by.fitted->parameters().head(on.parameters()), by.fitted->chosen().fit.sticking);
@@ -69,16 +69,17 @@ ColumnExport export_columns(DiagnosisInput const& input) {
   FittedModel const plain = fitted_model(strips, input.regressor, {}, nullptr, as_read);
   FittedModel const model = fitted_model(strips, input.regressor, {}, plain.fitted.get(), as_read);
   JointScales const& scales = model.model->reference().scales;
-  std::vector<Effect const*> laws;
+  std::vector<Effect const*> effects;
   for (auto const* effect : input.candidates)
-    if (effect->exists_on(scales.joint)) laws.push_back(effect);
-  auto const questions = law_questions(laws, scales, sticking_bounds(strips.training->front().resolution).most_length);
+    if (effect->exists_on(scales.joint)) effects.push_back(effect);
+  auto const questions =
+      effect_questions(effects, scales, sticking_bounds(strips.training->front().resolution).most_length);
   FittedStrips const& fitted = *model.fitted;
   Score const score(fitted.chosen().fit.columns, fitted.residual(), fitted.guard());
   auto const found = scan_recording(questions, fitted, score, input.threads);
-  std::vector<RefinedLaw> refined(questions.size());
+  std::vector<RefinedEffect> refined(questions.size());
   parallel_for(questions.size(), input.threads, [&](std::size_t i, int) {
-    refined[i] = refined_law(questions[i], found[i], fitted, score, input.numbers.least_fall);
+    refined[i] = refined_effect(questions[i], found[i], fitted, score, input.numbers.least_fall);
   });
   auto const n = static_cast<double>(fitted.residual().size());
   ColumnExport result;

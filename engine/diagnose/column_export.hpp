@@ -2,7 +2,7 @@
 // The columns of every candidate on a recording, for other methods: same pipeline, catalogue and search of shapes, but
 // no replicates.
 //
-// Rows       those of a decision (all_rows/strip.hpp): all samples, those at rest as the model treats them; a delay of
+// Rows       those of a decision (decision/strip.hpp): all samples, those at rest as the model treats them; a delay of
 //            the torque is no nuisance here, it is a candidate
 // Motion     the recording's own, filtered
 // Shape      where the effect leaves least of the least-squares residual on held-out folds: grid (shape_grid.hpp), then

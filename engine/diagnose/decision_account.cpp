@@ -2,15 +2,16 @@
 
 #include <utility>
 
-#include "engine/infer/all_rows/decision_words.hpp"
+#include "engine/infer/decision/decision_words.hpp"
 
 namespace torquescope {
 namespace {
 
-DecisionAccount::Law law_account(LawFacts const& law) {
-  DecisionAccount::Law account{law.effect->name(), word(law.refusal), law.shape,       law.gain, law.level, law.p,
-                               law.size,           law.judged_before, law.judged_after};
-  for (auto const* rival : law.rivals) account.rivals.push_back(rival->name());
+DecisionAccount::Effect effect_account(EffectFacts const& facts) {
+  DecisionAccount::Effect account{facts.effect->name(), word(facts.refusal), facts.shape,
+                                  facts.gain,           facts.level,         facts.p,
+                                  facts.size,           facts.judged_before, facts.judged_after};
+  for (auto const* rival : facts.rivals) account.rivals.push_back(rival->name());
   return account;
 }
 
@@ -18,7 +19,7 @@ DecisionAccount::Step step_account(StepFacts const& step) {
   CorrectionFacts const& correction = step.correction;
   DecisionAccount::Step account{step.is_of_clock,      step.replicates, word(step.source), step.visible,
                                 word(correction.axis), correction.gain, correction.p,      correction.size};
-  for (auto const& law : step.laws) account.laws.push_back(law_account(law));
+  for (auto const& effect : step.effects) account.effects.push_back(effect_account(effect));
   return account;
 }
 
@@ -77,7 +78,7 @@ DecisionAccount account_of(DecisionFacts const& facts, std::string verdict) {
   account.baseline = errors_account(facts.baseline);
   account.final = errors_account(facts.final);
   for (auto const& step : facts.steps) account.steps.push_back(step_account(step));
-  for (auto const& law : facts.accepted) account.accepted.push_back(law_account(law));
+  for (auto const& effect : facts.accepted) account.accepted.push_back(effect_account(effect));
   DelayFacts const& delay = facts.delay;
   account.delay = {delay.late_s, delay.deviation_s, delay.gain, delay.p, delay.size, delay.is_named};
   return account;

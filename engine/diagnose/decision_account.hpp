@@ -3,8 +3,8 @@
 //
 // Threads    pure function
 
-#include "engine/infer/all_rows/decision_facts.hpp"
-#include "engine/infer/all_rows/loop_facts.hpp"
+#include "engine/infer/decision/decision_facts.hpp"
+#include "engine/infer/decision/loop_facts.hpp"
 #include "engine/infer/verdict/decision_account.hpp"
 
 namespace torquescope {

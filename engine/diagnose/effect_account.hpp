@@ -11,7 +11,7 @@
 // Units      SI
 // Threads    free functions
 
-#include "engine/infer/all_rows/fitted_model.hpp"
+#include "engine/infer/decision/fitted_model.hpp"
 #include "engine/infer/locate/mismatch_rows.hpp"
 #include "engine/infer/verdict/diagnosis.hpp"
 

@@ -24,12 +24,12 @@
 #include "engine/diagnose/strip_account.hpp"
 #include "engine/effects/carry_over.hpp"
 #include "engine/fit/statistics/block_jackknife.hpp"
-#include "engine/infer/all_rows/decision_verdict.hpp"
-#include "engine/infer/all_rows/decision_words.hpp"
-#include "engine/infer/all_rows/delay_decision.hpp"
-#include "engine/infer/all_rows/joint_decision.hpp"
-#include "engine/infer/all_rows/kept_errors.hpp"
-#include "engine/infer/all_rows/loop_stage.hpp"
+#include "engine/infer/decision/decision_verdict.hpp"
+#include "engine/infer/decision/decision_words.hpp"
+#include "engine/infer/decision/delay_decision.hpp"
+#include "engine/infer/decision/joint_decision.hpp"
+#include "engine/infer/decision/kept_errors.hpp"
+#include "engine/infer/decision/loop_stage.hpp"
 #include "engine/infer/locate/largest_parts.hpp"
 #include "engine/infer/locate/mismatch_map.hpp"
 #include "engine/infer/pipeline/echoed_reference.hpp"
@@ -102,12 +102,13 @@ class JointWork {
       (i < input_.further_training ? training : validation).push_back(std::move(other));
     }
     DecisionQuestion question{training, validation, first_look_.regressor(), input_.filter, input_.filter_section};
-    question.laws = input_.candidates;
-    std::erase_if(question.laws, [&](Effect const* law) {
-      bool const is_unknown = law->is_given() && !(training.front().given && training.front().given->of(law->name()));
-      return is_unknown || closes(first_look_.limits(), *law);
+    question.effects = input_.candidates;
+    std::erase_if(question.effects, [&](Effect const* effect) {
+      bool const is_unknown =
+          effect->is_given() && !(training.front().given && training.front().given->of(effect->name()));
+      return is_unknown || closes(first_look_.limits(), *effect);
     });
-    question.most_laws = input_.max_effects;
+    question.most_effects = input_.max_effects;
     question.numbers = input_.numbers;
     question.numbers.replicates = replicates_for(input_.numbers);
     question.weighs_rows = !further_;  // an arm pools the rows of its joints
@@ -222,14 +223,14 @@ class JointWork {
 
   void tell_candidates(DecisionFacts const& facts) {
     if (facts.steps.empty()) return;
-    for (auto const& law : facts.steps.front().laws) {
+    for (auto const& effect : facts.steps.front().effects) {
       Candidate candidate;
-      candidate.name = law.effect->name();
-      candidate.family = word(law.effect->family());
-      candidate.z = std::sqrt(law.gain);
-      candidate.p = candidate.q = law.p;
-      candidate.reason = clause(law.refusal);
-      candidate.decision = law.refusal == Refusal::none ? Decision::named : Decision::rejected;
+      candidate.name = effect.effect->name();
+      candidate.family = word(effect.effect->family());
+      candidate.z = std::sqrt(effect.gain);
+      candidate.p = candidate.q = effect.p;
+      candidate.reason = clause(effect.refusal);
+      candidate.decision = effect.refusal == Refusal::none ? Decision::named : Decision::rejected;
       joint_.candidates.push_back(std::move(candidate));
     }
   }
@@ -295,9 +296,9 @@ class JointWork {
       joint_.augmented.push_back(estimate(owner.name, owner.unit, decision.facts.parameters[k]));
     }
     FrictionSign const sign = model.reference().scales.friction_sign();
-    joint_.law_levels = {sign.forward, sign.backward, model.reference().scales.inertia};
+    joint_.effect_levels = {sign.forward, sign.backward, model.reference().scales.inertia};
     MismatchRows const rows = mismatch_rows(decision.final, decision.final_replicates);
-    for (std::size_t i = 0; i < decision.facts.accepted.size(); ++i) tell_law(decision, rows, i);
+    for (std::size_t i = 0; i < decision.facts.accepted.size(); ++i) tell_effect(decision, rows, i);
     if (decision.facts.delay.is_named) tell_delay(decision.facts.delay);
     tell_in_recorded_unit(joint_);
     mark_equivalent(joint_.candidates, joint_.effects);
@@ -305,16 +306,16 @@ class JointWork {
   }
 
   // waves of one kind are one name, their parameters numbered
-  void tell_law(JointDecision const& decision, MismatchRows const& rows, std::size_t i) {
-    LawFacts const& law = decision.facts.accepted[i];
+  void tell_effect(JointDecision const& decision, MismatchRows const& rows, std::size_t i) {
+    EffectFacts const& facts = decision.facts.accepted[i];
     auto const same = std::find_if(joint_.effects.begin(), joint_.effects.end(),
-                                   [&](NamedEffect const& one) { return one.name == law.effect->name(); });
+                                   [&](NamedEffect const& one) { return one.name == facts.effect->name(); });
     bool const is_new = same == joint_.effects.end();
     if (is_new) {
-      NamedEffect named = named_after(*law.effect);
+      NamedEffect named = named_after(*facts.effect);
       EffectAccount account = account_of(decision, rows, i);
-      named.p = named.q = law.p;
-      named.z = std::sqrt(law.gain);
+      named.p = named.q = facts.p;
+      named.z = std::sqrt(facts.gain);
       named.region = account.region;
       named.places = std::move(account.places);
       named.curve = std::move(account.curve);
@@ -323,10 +324,10 @@ class JointWork {
       joint_.effects.push_back(std::move(named));
     }
     NamedEffect& named = is_new ? joint_.effects.back() : *same;
-    for (auto const* rival : law.rivals)
+    for (auto const* rival : facts.rivals)
       if (std::find(named.equivalent.begin(), named.equivalent.end(), rival->name()) == named.equivalent.end())
         named.equivalent.push_back(rival->name());
-    std::size_t& count = waves_[law.effect];
+    std::size_t& count = waves_[facts.effect];
     for (auto& parameter : parameters_of(decision, i, ++count)) {
       named.parameters.push_back(parameter);
       joint_.augmented.push_back(std::move(parameter));
@@ -336,15 +337,15 @@ class JointWork {
   std::vector<ParameterEstimate> parameters_of(JointDecision const& decision, std::size_t i, std::size_t number) const {
     JointModel const& model = *decision.final.model;
     auto const& numbers = decision.facts.parameters;
-    LawFacts const& law = decision.facts.accepted[i];
+    EffectFacts const& facts = decision.facts.accepted[i];
     std::size_t shape_at = model.size();
     for (std::size_t before = 0; before < i; ++before) shape_at += model.effects()[before].shape.size();
     std::vector<ParameterEstimate> estimates;
-    auto const& parameters = law.effect->parameters();
+    auto const& parameters = facts.effect->parameters();
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       std::size_t const at = parameters[k].is_shape ? shape_at++ : model.first_parameter(i) + k;
       FittedNumber const known =
-          at < numbers.size() ? numbers[at] : FittedNumber{law.shape[k - law.effect->n_linear()], unknown};
+          at < numbers.size() ? numbers[at] : FittedNumber{facts.shape[k - facts.effect->n_linear()], unknown};
       std::string const name = parameters[k].name + (number > 1 ? "_" + std::to_string(number) : "");
       estimates.push_back(estimate(name, parameters[k].unit_for(model.regressor().joint()), known));
     }

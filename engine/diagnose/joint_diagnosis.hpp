@@ -1,7 +1,7 @@
 #pragma once
 // The whole diagnosis of one joint, decided on all samples and told as people read it.
 //
-// Verdict    engine/infer/all_rows/THEORY.md, Adequacy
+// Verdict    engine/infer/decision/THEORY.md, Adequacy
 // Errors     Error 78 for a filter that does not suit the recording; what a recording is to blame for is a verdict
 // Threads    spreads work over `threads`; same bits for any number
 // Source     METHOD.md
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/infer/all_rows/joint_decision.hpp"
-#include "engine/infer/all_rows/loop_stage.hpp"
+#include "engine/infer/decision/joint_decision.hpp"
+#include "engine/infer/decision/loop_stage.hpp"
 #include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/effects/carry_over.hpp"
-#include "engine/simulate/rollout/drive_law.hpp"
+#include "engine/simulate/rollout/drive_effect.hpp"
 
 namespace torquescope {
 namespace {
@@ -14,8 +14,8 @@ NamedEffect named_command(LoopSubject const& subject) {
   NamedEffect named;
   named.name = subject.key == LoopKey::command_delay_s ? "delay" : name_of(subject);
   named.family = "command";
-  named.title = drive_law_of(subject.key).title;
-  named.equation = drive_law_of(subject.key).equation;
+  named.title = drive_effect_of(subject.key).title;
+  named.equation = drive_effect_of(subject.key).equation;
   named.acts_on = word(ActsOn::joint);
   return named;
 }
@@ -37,17 +37,17 @@ void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts c
                    StandingNames const& names) {
   if (!names.by_loop) return;
   std::vector<NamedEffect> standing;
-  bool const had_all = std::find(names.laws.begin(), names.laws.end(), false) == names.laws.end();
+  bool const had_all = std::find(names.effects.begin(), names.effects.end(), false) == names.effects.end();
   bool const keeps_delay = scan.delay.is_named && names.has_delay && !names.command_delay;
   for (auto& effect : joint.effects) {
-    bool is_law = false, stands = false;
+    bool is_effect = false, stands = false;
     // waves of one effect are one name
     for (std::size_t i = 0; i < scan.accepted.size(); ++i) {
       if (scan.accepted[i].effect->name() != effect.name) continue;
-      is_law = true;
-      stands = stands || names.laws[i];
+      is_effect = true;
+      stands = stands || names.effects[i];
     }
-    if (is_law ? stands : keeps_delay) standing.push_back(std::move(effect));
+    if (is_effect ? stands : keeps_delay) standing.push_back(std::move(effect));
   }
   for (auto const& move : loop.kept) {
     bool const is_delay = move.subject.is_of_command() && move.subject.key == LoopKey::command_delay_s;
@@ -68,7 +68,7 @@ void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts c
 bool is_lower(DecisionFacts const& scan, LoopFacts const& loop, double least_fall) {
   // what happens once, or runs by itself, may not be in the recordings to predict
   bool const is_of_clock = std::all_of(scan.accepted.begin(), scan.accepted.end(),
-                                       [](LawFacts const& law) { return is_clock_bound(*law.effect); });
+                                       [](EffectFacts const& facts) { return is_clock_bound(*facts.effect); });
   auto const judged = [&](ModelErrors const& errors) {
     return is_of_clock && !scan.accepted.empty() ? errors.held_out : errors.judged();
   };

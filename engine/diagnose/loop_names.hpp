@@ -4,9 +4,9 @@
 //
 // Numbers    where simulations decided, those of their final model
 // Threads    pure functions
-// Source     engine/infer/all_rows/THEORY.md, In the loop
+// Source     engine/infer/decision/THEORY.md, In the loop
 
-#include "engine/infer/all_rows/loop_verdict.hpp"
+#include "engine/infer/decision/loop_verdict.hpp"
 #include "engine/infer/verdict/diagnosis.hpp"
 
 namespace torquescope {

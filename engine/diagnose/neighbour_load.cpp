@@ -33,7 +33,7 @@ Eigen::MatrixXd library_of(Motion const& joint, Motion const& other) {
 }
 
 // beside a model
-Eigen::MatrixXd laws_of_the_joint_alone(Motion const& joint) {
+Eigen::MatrixXd effects_of_the_joint_alone(Motion const& joint) {
   auto const q = joint.q.array(), dq = joint.dq.array();
   Eigen::MatrixXd columns(joint.q.size(), 7);
   columns << q, q.square(), q.cube(), q.cos(), q.sin(), dq.abs() * dq, dq.sign() * dq.abs().sqrt();
@@ -60,7 +60,7 @@ std::optional<NeighbourLoad> neighbour_load(Recording const& recording, RecordPi
   auto const with = [&](Eigen::MatrixXd const& columns) {
     return forward_residuals(torque, columns, library, n_chosen, own, guard);
   };
-  Eigen::MatrixXd const alone = pipeline.filtered_columns(laws_of_the_joint_alone(rows.motion), rows);
+  Eigen::MatrixXd const alone = pipeline.filtered_columns(effects_of_the_joint_alone(rows.motion), rows);
   Eigen::MatrixXd joint(torque.size(), model.cols() + alone.cols());
   joint << model, alone;
   NeighbourLoad load;

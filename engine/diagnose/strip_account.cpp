@@ -60,7 +60,7 @@ Eigen::MatrixXd own_columns(FittedModel const& by) {
 }
 
 TorqueTrace trace(std::string name, Strip const& strip, Eigen::VectorXd const& before, Eigen::VectorXd const& after) {
-  auto const& filter = *strip.filters->laws;
+  auto const& filter = *strip.filters->effects;
   auto const every = [&](Eigen::VectorXd const& signal) {
     Eigen::VectorXd const kept = filter.pick(signal);
     Eigen::VectorXd thinned((kept.size() + strip.rows_apart - 1) / strip.rows_apart);
@@ -90,7 +90,7 @@ TorqueTrace trace(std::string name, Strip const& strip, Eigen::VectorXd const& b
 
 MismatchRows mismatch_rows(FittedModel const& by, Eigen::MatrixXd const& replicates) {
   Strip const& strip = by.fitted->strips().front();
-  auto const& filter = *strip.filters->laws;
+  auto const& filter = *strip.filters->effects;
   MismatchRows rows;
   static_cast<MotionAxes&>(rows) = axes_of(by).picked(
       [&](Eigen::VectorXd const& signal) { return Eigen::VectorXd(filter.pick(signal)(strip.rows)); });

@@ -7,7 +7,7 @@
 // Threads    free functions; the map spreads replicates over `threads`
 
 #include "engine/diagnose/effect_account.hpp"
-#include "engine/infer/all_rows/joint_decision.hpp"
+#include "engine/infer/decision/joint_decision.hpp"
 
 namespace torquescope {
 

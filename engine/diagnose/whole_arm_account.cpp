@@ -14,30 +14,30 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // "zero_3" of the effect that is joint 3's
-std::string name_of(EffectParameter const& parameter, LawPlace const& law) {
-  return law.joint ? parameter.name + "_" + std::to_string(*law.joint + 1) : parameter.name;
+std::string name_of(EffectParameter const& parameter, EffectPlace const& effect) {
+  return effect.joint ? parameter.name + "_" + std::to_string(*effect.joint + 1) : parameter.name;
 }
 
-std::vector<ParameterEstimate> parameters_of(FoundWholeArmLaw const& found) {
-  auto const& all = found.law.effect->parameters();
+std::vector<ParameterEstimate> parameters_of(FoundWholeArmEffect const& found) {
+  auto const& all = found.effect.effect->parameters();
   double const t = student_t_quantile(normal_quantile_975, static_cast<double>(stretches_per_recording - 1));
   std::vector<ParameterEstimate> parameters;
   for (Eigen::Index i = 0; i < found.values.size(); ++i) {
     auto const& one = all[static_cast<std::size_t>(i)];
     if (!found.is_told[static_cast<std::size_t>(i)]) continue;
     double const value = found.values[i], half = t * found.errors[i];
-    parameters.push_back({name_of(one, found.law), one.unit_revolute, value, value - half, value + half});
+    parameters.push_back({name_of(one, found.effect), one.unit_revolute, value, value - half, value + half});
   }
   if (!found.time) return parameters;
   double const instants[] = {found.time->from_s, found.time->until_s};
   for (std::size_t k = 0; k < std::size(instants); ++k)
     if (std::isfinite(instants[k]))
-      parameters.push_back({all[found.law.effect->n_linear() + k].name, "s", instants[k], unknown, unknown});
+      parameters.push_back({all[found.effect.effect->n_linear() + k].name, "s", instants[k], unknown, unknown});
   return parameters;
 }
 
-NamedEffect named(FoundWholeArmLaw const& found, WholeArmRecordings const& recordings, double alpha) {
-  Effect const& effect = *found.law.effect;
+NamedEffect named(FoundWholeArmEffect const& found, WholeArmRecordings const& recordings, double alpha) {
+  Effect const& effect = *found.effect.effect;
   NamedEffect made = named_after(effect);
   for (Effect const* other : found.alike) made.equivalent.push_back(other->name());
   made.p = found.p;
@@ -79,14 +79,14 @@ char const* clause_of(WholeArmReason reason) {
   return "";
 }
 
-std::string name_of(LawPlace const& law) {
-  return law.effect->name() + (law.joint ? "_" + std::to_string(*law.joint + 1) : "");
+std::string name_of(EffectPlace const& effect) {
+  return effect.effect->name() + (effect.joint ? "_" + std::to_string(*effect.joint + 1) : "");
 }
 
-Candidate candidate_of(FoundWholeArmLaw const& found, double alpha) {
+Candidate candidate_of(FoundWholeArmEffect const& found, double alpha) {
   Candidate one;
-  one.name = name_of(found.law);
-  one.family = word(found.law.effect->family());
+  one.name = name_of(found.effect);
+  one.family = word(found.effect.effect->family());
   one.z = found.z;
   one.p = found.p;
   one.q = alpha;
@@ -95,9 +95,9 @@ Candidate candidate_of(FoundWholeArmLaw const& found, double alpha) {
   return one;
 }
 
-void mark(std::vector<Candidate>& candidates, FoundWholeArmLaw const& accepted) {
+void mark(std::vector<Candidate>& candidates, FoundWholeArmEffect const& accepted) {
   for (Candidate& one : candidates) {
-    if (one.name == name_of(accepted.law)) one.decision = Decision::named;
+    if (one.name == name_of(accepted.effect)) one.decision = Decision::named;
     for (Effect const* other : accepted.alike)
       if (one.name.starts_with(other->name())) one.decision = Decision::equivalent;
   }
@@ -121,16 +121,16 @@ WholeArmDiagnosis account_for_whole_arm(std::vector<WholeArmAnswer> const& answe
   return made;
 }
 
-void credit_laws_of_whole_arm(std::vector<WholeArmAnswer> const& answers, double most,
-                              std::vector<JointDiagnosis>& joints) {
+void credit_effects_of_whole_arm(std::vector<WholeArmAnswer> const& answers, double most,
+                                 std::vector<JointDiagnosis>& joints) {
   for (auto const& answer : answers)
-    for (auto const& law : answer.accepted)
+    for (auto const& effect : answer.accepted)
       for (std::size_t j = 0; j < joints.size(); ++j) {
-        double const share = law.explained_at[static_cast<Eigen::Index>(j)];
+        double const share = effect.explained_at[static_cast<Eigen::Index>(j)];
         if (joints[j].verdict != Verdict::unexplained || share <= most) continue;
         joints[j].verdict = Verdict::partly;
         joints[j].explained_share = share;
-        joints[j].reason = explained_by_arm_sentence(law.law.effect->name(), share) + " " + joints[j].reason;
+        joints[j].reason = explained_by_arm_sentence(effect.effect.effect->name(), share) + " " + joints[j].reason;
       }
 }
 

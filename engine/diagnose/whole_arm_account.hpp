@@ -21,7 +21,7 @@ WholeArmDiagnosis account_for_whole_arm(std::vector<WholeArmAnswer> const& answe
                                         WholeArmRecordings const& recordings, double alpha);
 
 // A joint of whose mismatch an effect of the whole arm explains more than `most` is not unexplained: what is left is
-void credit_laws_of_whole_arm(std::vector<WholeArmAnswer> const& answers, double most,
-                              std::vector<JointDiagnosis>& joints);
+void credit_effects_of_whole_arm(std::vector<WholeArmAnswer> const& answers, double most,
+                                 std::vector<JointDiagnosis>& joints);
 
 }  // namespace torquescope

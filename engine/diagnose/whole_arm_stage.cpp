@@ -37,9 +37,9 @@ JointsOfArm joints_of(ArmFiles const& files, ArmModel const& model, ArmFilter co
   for (auto const& arm : files.arms) {
     auto joints = joints_with_rigid_rows(model, arm, filter);
     if (!files.wanted.empty()) {
-      auto const laws = whole_arm_laws(model, files.parameters, motion_of(arm, filter), files.wanted, threads);
-      all.laws = law_places(laws);
-      give_whole_arm_laws(joints, laws);
+      auto const effects = whole_arm_effects(model, files.parameters, motion_of(arm, filter), files.wanted, threads);
+      all.effects = effect_places(effects);
+      give_whole_arm_effects(joints, effects);
     }
     for (auto& joint : joints) joint = from_zero(std::move(joint));
     all.files.push_back(std::move(joints));
@@ -47,8 +47,8 @@ JointsOfArm joints_of(ArmFiles const& files, ArmModel const& model, ArmFilter co
   return all;
 }
 
-WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, RowsOfArm const& of) {
-  if (of.laws.empty()) return {};
+WholeArmAnswer effects_of_whole_arm(ArmDiagnosisInput const& input, RowsOfArm const& of) {
+  if (of.effects.empty()) return {};
   std::vector<RowsOfJoint const*> training;
   std::vector<std::vector<RowsOfJoint const*>> validation(input.validate.size());
   std::vector<Eigen::Index> own_columns;
@@ -58,22 +58,22 @@ WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, RowsOfArm const
     own_columns.push_back(joint->training.model.own.cols());
     for (std::size_t k = 0; k < validation.size(); ++k) validation[k].push_back(&joint->validation[k]);
   }
-  WholeArmRows const trained = whole_arm_rows(training, own_columns, of.noise, of.laws);
+  WholeArmRows const trained = whole_arm_rows(training, own_columns, of.noise, of.effects);
   std::vector<WholeArmRows> others;
-  for (auto const& joints : validation) others.push_back(whole_arm_rows(joints, own_columns, of.noise, of.laws));
+  for (auto const& joints : validation) others.push_back(whole_arm_rows(joints, own_columns, of.noise, of.effects));
   DecisionNumbers numbers = input.numbers;
   numbers.alpha = numbers.alpha_of_whole_arm();
   return search_whole_arm({trained, others, of.noise, numbers, input.seed, input.threads});
 }
 
-std::vector<RecordedArm> without_laws(ArmDiagnosisInput const& input, ArmFiles const& files, ArmFilter const& filter,
-                                      std::vector<FoundWholeArmLaw> const& accepted) {
+std::vector<RecordedArm> without_effects(ArmDiagnosisInput const& input, ArmFiles const& files, ArmFilter const& filter,
+                                         std::vector<FoundWholeArmEffect> const& accepted) {
   std::vector<RecordedArm> arms = files.arms;
   for (std::size_t k = 0; k < arms.size(); ++k) {
     bool const is_validation = k >= files.training;
-    auto const laws =
-        whole_arm_laws(input.model, files.parameters, motion_of(files.arms[k], filter), files.wanted, input.threads);
-    OneRecording const of{laws, files.arms[k].joints.front().time_s, is_validation ? k - files.training : k,
+    auto const effects =
+        whole_arm_effects(input.model, files.parameters, motion_of(files.arms[k], filter), files.wanted, input.threads);
+    OneRecording const of{effects, files.arms[k].joints.front().time_s, is_validation ? k - files.training : k,
                           is_validation};
     auto const torques = whole_arm_torques(accepted, of);
     for (std::size_t j = 0; j < torques.size(); ++j) {

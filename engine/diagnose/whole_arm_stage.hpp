@@ -3,7 +3,7 @@
 // out of the recordings before joints are asked for effects of their own.
 //
 // Errors     those of the filters
-// Threads    spreads laws over the input's threads; same bits for any number
+// Threads    spreads effects over the input's threads; same bits for any number
 
 #include <optional>
 #include <vector>
@@ -26,23 +26,24 @@ struct ArmFiles {
 };
 ArmFiles arm_files(ArmDiagnosisInput const& input, std::vector<RecordedArm> arms, ArmFilter const& filter);
 
-// joints with the columns of the arm, of their neighbours and of laws of the whole arm
+// joints with the columns of the arm, of their neighbours and of effects of the whole arm
 struct JointsOfArm {
   std::vector<std::vector<Recording>> files{};  // [file][N]
-  std::vector<LawPlace> laws{};                 // empty: none is asked for
+  std::vector<EffectPlace> effects{};           // empty: none is asked for
 };
 JointsOfArm joints_of(ArmFiles const& files, ArmModel const& model, ArmFilter const& filter, int threads);
 
 // rows: of each joint, none where it has no model; noise: [N]
 struct RowsOfArm {
-  std::vector<LawPlace> const& laws;
+  std::vector<EffectPlace> const& effects;
   std::vector<std::optional<ArmRowsOfJoint>> const& rows;
   Eigen::VectorXd noise{};
 };
-WholeArmAnswer laws_of_whole_arm(ArmDiagnosisInput const& input, RowsOfArm const& of);
+WholeArmAnswer effects_of_whole_arm(ArmDiagnosisInput const& input, RowsOfArm const& of);
 
-// what the laws add is no torque to explain any more; it passes the gears all the same. The laws are those of `files`
-std::vector<RecordedArm> without_laws(ArmDiagnosisInput const& input, ArmFiles const& files, ArmFilter const& filter,
-                                      std::vector<FoundWholeArmLaw> const& accepted);
+// what the effects add is no torque to explain any more; it passes the gears all the same. The effects are those of
+// `files`
+std::vector<RecordedArm> without_effects(ArmDiagnosisInput const& input, ArmFiles const& files, ArmFilter const& filter,
+                                         std::vector<FoundWholeArmEffect> const& accepted);
 
 }  // namespace torquescope

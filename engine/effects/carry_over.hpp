@@ -8,7 +8,7 @@
 // Phase        a wave over a counter keeps size and order; where the counter begins is another place in each recording.
 //              A wave per second keeps its frequency: a pump runs in another recording too, or it does not
 // Threads      free functions
-// Source       engine/infer/all_rows/THEORY.md, The rules
+// Source       engine/infer/decision/THEORY.md, The rules
 
 #include <algorithm>
 

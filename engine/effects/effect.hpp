@@ -38,9 +38,9 @@ struct EffectParameter {
   Spacing spacing = Spacing::linear;
   bool none_at_lower = false;  // its lower bound stands for an effect without it
   bool is_resonance = false;   // that rings: most of what it explains is gone a few percent beside it
-  // a bound that is a law of its own (an exponent of 2, a share of all), or a limit of what rows can tell: an estimate
-  // there is a finding, and at any other bound the end of what is plausible
-  bool law_at_lower = false, law_at_upper = false;
+  // a bound that is an effect of its own (an exponent of 2, a share of all), or a limit of what rows can tell: an
+  // estimate there is a finding, and at any other bound the end of what is plausible
+  bool effect_at_lower = false, effect_at_upper = false;
 
   std::string const& unit_for(JointKind joint) const {
     return joint == JointKind::revolute ? unit_revolute : unit_prismatic;
@@ -67,18 +67,18 @@ inline EffectParameter resonance(EffectParameter parameter) {
   return parameter;
 }
 
-inline EffectParameter law_at_lower(EffectParameter parameter) {
-  parameter.law_at_lower = true;
+inline EffectParameter effect_at_lower(EffectParameter parameter) {
+  parameter.effect_at_lower = true;
   return parameter;
 }
 
-inline EffectParameter law_at_upper(EffectParameter parameter) {
-  parameter.law_at_upper = true;
+inline EffectParameter effect_at_upper(EffectParameter parameter) {
+  parameter.effect_at_upper = true;
   return parameter;
 }
 
-inline EffectParameter law_at_both(EffectParameter parameter) {
-  return law_at_lower(law_at_upper(std::move(parameter)));
+inline EffectParameter effect_at_both(EffectParameter parameter) {
+  return effect_at_lower(effect_at_upper(std::move(parameter)));
 }
 
 // a parameter's bounds on one recording
@@ -134,8 +134,8 @@ struct EffectDescription {
   bool is_dry_friction = false;  // torque jumps with the sign of the velocity: set-valued at rest for a simulator
   bool is_partly_dry = false;    // a part of it does so, beside one that asks for an acceleration
   bool is_level_free =
-      false;              // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
-  bool is_given = false;  // columns come with the recording (given_effect.hpp)
+      false;  // an effect of the position whose level is the baseline's: encoders read 0 where somebody put it
+  bool is_given = false;          // columns come with the recording (given_effect.hpp)
   bool is_of_whole_arm = false;   // acts on several joints at once, and is judged on the rows of all
   bool is_torque_timing = false;  // the torque at another time: a nuisance of every decision
   bool is_rigid_body = false;     // mass or weight of the moved body, which the model of a whole arm has already
@@ -210,7 +210,7 @@ class Effect {
 };
 
 std::vector<Effect const*> const& effect_choices();
-// of these and of arm_law_choices()
+// of these and of arm_effect_choices()
 Effect const* find_effect(std::string const& name);
 
 }  // namespace torquescope

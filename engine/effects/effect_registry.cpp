@@ -9,7 +9,7 @@ namespace effects {
 #undef TORQUESCOPE_CHOICE
 }  // namespace effects
 
-std::vector<Effect const*> const& arm_law_choices() {
+std::vector<Effect const*> const& arm_effect_choices() {
   static std::vector<Effect const*> const choices{
 #define TORQUESCOPE_CHOICE(name) &effects::name(),
 #include "arm_law_choices.inc"
@@ -28,7 +28,7 @@ std::vector<Effect const*> const& effect_choices() {
 }
 
 Effect const* find_effect(std::string const& name) {
-  for (auto const* choices : {&effect_choices(), &arm_law_choices()})
+  for (auto const* choices : {&effect_choices(), &arm_effect_choices()})
     for (auto const* effect : *choices)
       if (effect->name() == name) return effect;
   return nullptr;

@@ -26,16 +26,16 @@ HWY_INLINE V of(double const* values, bool is_common, std::size_t lane) {
 }
 
 // LoadBehindGap::drive_of
-HWY_INLINE V drive_of(EightLaws const& laws, EightLoads const& loads, Motions const& at, std::size_t k) {
+HWY_INLINE V drive_of(EightGaps const& gaps, EightLoads const& loads, Motions const& at, std::size_t k) {
   V const pulled = hn::Add(of(at.ddq, at.is_common, k), of(loads.weight, k));
-  return hn::Add(pulled, hn::Mul(of(laws.drag_per_s, k), of(at.dq, at.is_common, k)));
+  return hn::Add(pulled, hn::Mul(of(gaps.drag_per_s, k), of(at.dq, at.is_common, k)));
 }
 
 // DryFriction::against
-HWY_INLINE V dry_against(EightLaws const& laws, std::size_t k, V slides) {
+HWY_INLINE V dry_against(EightGaps const& gaps, std::size_t k, V slides) {
   V const zero = hn::Zero(d);
-  V const backward = hn::IfThenElseZero(hn::Lt(slides, zero), hn::Neg(of(laws.backward, k)));
-  return hn::IfThenElse(hn::Gt(slides, zero), of(laws.forward, k), backward);
+  V const backward = hn::IfThenElseZero(hn::Lt(slides, zero), hn::Neg(of(gaps.backward, k)));
+  return hn::IfThenElse(hn::Gt(slides, zero), of(gaps.forward, k), backward);
 }
 
 struct Places {
@@ -43,14 +43,14 @@ struct Places {
 };
 
 // Flank::ring over a whole sub-step; the place relative to where the flank begins
-HWY_INLINE Places rung(EightLaws const& laws, EightSubSteps const& steps, std::size_t k, Places const& from, V now,
+HWY_INLINE Places rung(EightGaps const& gaps, EightSubSteps const& steps, std::size_t k, Places const& from, V now,
                        V jerk) {
-  V const per_square = of(laws.per_square, k), decay = of(laws.decay, k), ringing = of(laws.ringing, k);
+  V const per_square = of(gaps.per_square, k), decay = of(gaps.decay, k), ringing = of(gaps.ringing, k);
   V const cosine = of(steps.cosine, k), sine = of(steps.sine, k);
-  V const follow = hn::Add(hn::Mul(hn::Neg(now), per_square), hn::Mul(of(laws.lag, k), jerk));
+  V const follow = hn::Add(hn::Mul(hn::Neg(now), per_square), hn::Mul(of(gaps.lag, k), jerk));
   V const dfollow = hn::Mul(hn::Neg(jerk), per_square);
   V const free = hn::Sub(from.y, follow), dfree = hn::Sub(from.dy, dfollow);
-  V const quadrature = hn::Mul(hn::Add(dfree, hn::Mul(decay, free)), of(laws.per_ringing, k));
+  V const quadrature = hn::Mul(hn::Add(dfree, hn::Mul(decay, free)), of(gaps.per_ringing, k));
   V const swing = hn::Add(hn::Mul(free, cosine), hn::Mul(quadrature, sine));
   V const dswing =
       hn::Sub(hn::Mul(dfree, cosine), hn::Mul(hn::Add(hn::Mul(free, ringing), hn::Mul(decay, quadrature)), sine));
@@ -73,73 +73,73 @@ HWY_INLINE Places flown_thickly(V time_s, V per_film, V faded, Places const& fro
           hn::Sub(hn::Sub(from.dy, lost), hn::Mul(change, time_s))};
 }
 
-HWY_INLINE Places flown(EightLaws const& laws, EightSubSteps const& steps, std::size_t k, Places const& from, V now,
+HWY_INLINE Places flown(EightGaps const& gaps, EightSubSteps const& steps, std::size_t k, Places const& from, V now,
                         V jerk) {
   V const time_s = of(steps.time_s, k);
   auto const is_thin = hn::Gt(of(steps.is_thin, k), hn::Zero(d));
   if (hn::AllTrue(d, is_thin)) return flown_thinly(time_s, from, now, jerk);
-  Places const thick = flown_thickly(time_s, of(laws.per_film, k), of(steps.faded, k), from, now, jerk);
+  Places const thick = flown_thickly(time_s, of(gaps.per_film, k), of(steps.faded, k), from, now, jerk);
   if (hn::AllFalse(d, is_thin)) return thick;
   Places const thin = flown_thinly(time_s, from, now, jerk);
   return {hn::IfThenElse(is_thin, thin.y, thick.y), hn::IfThenElse(is_thin, thin.dy, thick.dy)};
 }
 
 // Flank::push
-HWY_INLINE V push_of_flank(EightLaws const& laws, std::size_t k, V beyond, V dy) {
-  return hn::Add(hn::Mul(of(laws.square, k), beyond), hn::Mul(of(laws.push_per_s, k), dy));
+HWY_INLINE V push_of_flank(EightGaps const& gaps, std::size_t k, V beyond, V dy) {
+  return hn::Add(hn::Mul(of(gaps.square, k), beyond), hn::Mul(of(gaps.push_per_s, k), dy));
 }
 
 // LoadBehindGap::side_at
-HWY_INLINE V side_at(EightLaws const& laws, std::size_t k, Places const& at) {
+HWY_INLINE V side_at(EightGaps const& gaps, std::size_t k, Places const& at) {
   V const side = hn::CopySign(set(1.0), at.y), zero = hn::Zero(d);
-  V const beyond = hn::Sub(at.y, hn::Mul(side, of(laws.half_gap, k)));
-  V const push = push_of_flank(laws, k, beyond, at.dy);
+  V const beyond = hn::Sub(at.y, hn::Mul(side, of(gaps.half_gap, k)));
+  V const push = push_of_flank(gaps, k, beyond, at.dy);
   return hn::IfThenElseZero(hn::And(hn::Gt(hn::Mul(side, beyond), zero), hn::Gt(hn::Mul(side, push), zero)), side);
 }
 
 // loads with dry friction that have a part of this number
-HWY_INLINE auto brakes(EightLaws const& laws, EightSubSteps const& steps, double part, std::size_t k) {
-  return hn::And(hn::Gt(of(laws.is_dry, k), hn::Zero(d)), hn::Lt(set(part), of(steps.count, k)));
+HWY_INLINE auto brakes(EightGaps const& gaps, EightSubSteps const& steps, double part, std::size_t k) {
+  return hn::And(hn::Gt(of(gaps.is_dry, k), hn::Zero(d)), hn::Lt(set(part), of(steps.count, k)));
 }
 
 }  // namespace
 
-void before_dry_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, EightLoads& loads) {
+void before_dry_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double part, EightLoads& loads) {
   V const zero = hn::Zero(d);
   for (std::size_t k = 0; k < gap_lanes; k += hn::MaxLanes(d)) {
     V const y = of(loads.y, k), dy = of(loads.dy, k), side = of(loads.side, k), now = of(loads.now, k);
-    V const beyond = hn::Sub(y, hn::Mul(side, of(laws.half_gap, k)));
-    V const of_grease = hn::Mul(of(laws.film_push_per_s, k), dy);
-    V const push = hn::Neg(hn::IfThenElse(hn::Eq(side, zero), of_grease, push_of_flank(laws, k, beyond, dy)));
+    V const beyond = hn::Sub(y, hn::Mul(side, of(gaps.half_gap, k)));
+    V const of_grease = hn::Mul(of(gaps.film_push_per_s, k), dy);
+    V const push = hn::Neg(hn::IfThenElse(hn::Eq(side, zero), of_grease, push_of_flank(gaps, k, beyond, dy)));
     V const per_part = hn::Div(set(1.0), of(steps.time_s, k));
     V const own =
-        hn::Sub(hn::Sub(now, hn::Mul(of(loads.faster, k), per_part)), hn::Mul(of(laws.drag_per_s, k), of(loads.dq, k)));
+        hn::Sub(hn::Sub(now, hn::Mul(of(loads.faster, k), per_part)), hn::Mul(of(gaps.drag_per_s, k), of(loads.dq, k)));
     V const acceleration = hn::Sub(push, own);
-    V const held = hn::IfThenElse(hn::Gt(acceleration, zero), of(laws.forward, k), of(laws.backward, k));
+    V const held = hn::IfThenElse(hn::Gt(acceleration, zero), of(gaps.forward, k), of(gaps.backward, k));
     V const would = hn::IfThenElseZero(hn::Gt(hn::Abs(acceleration), held), hn::CopySign(set(1.0), acceleration));
     V const slid = of(loads.slides, k);
-    auto const is_braked = brakes(laws, steps, part, k);
+    auto const is_braked = brakes(gaps, steps, part, k);
     V const slides = hn::IfThenElse(hn::And(is_braked, hn::Eq(slid, zero)), would, slid);
-    V const pulled = hn::IfThenElse(is_braked, hn::Add(now, dry_against(laws, k, slides)), now);
+    V const pulled = hn::IfThenElse(is_braked, hn::Add(now, dry_against(gaps, k, slides)), now);
     hn::StoreU(slides, d, loads.slides.data() + k);
     hn::StoreU(pulled, d, loads.pulled.data() + k);
     hn::StoreU(y, d, loads.y_before.data() + k);
   }
 }
 
-void after_dry_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, EightLoads& loads) {
+void after_dry_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double part, EightLoads& loads) {
   V const zero = hn::Zero(d);
   for (std::size_t k = 0; k < gap_lanes; k += hn::MaxLanes(d)) {
     V const dq = of(loads.dq, k), faster = of(loads.faster, k), slides = of(loads.slides, k), dy = of(loads.dy, k);
     V const next_dq = hn::Add(dq, faster);
-    auto const is_braked = brakes(laws, steps, part, k);
+    auto const is_braked = brakes(gaps, steps, part, k);
     auto const rests = hn::And(is_braked, hn::Eq(slides, zero));
     V const way = hn::Mul(of(steps.time_s, k), hn::Add(dq, hn::Mul(set(0.5), faster)));
     V const y = hn::IfThenElse(rests, hn::Sub(of(loads.y_before, k), way), of(loads.y, k));
     auto const goes_on = hn::AndNot(rests, hn::Gt(hn::Mul(hn::Add(next_dq, dy), slides), zero));
     auto const is_at_rest = hn::AndNot(goes_on, is_braked);
     Places const at{y, hn::IfThenElse(is_at_rest, hn::Neg(next_dq), dy)};
-    V const side = hn::IfThenElse(is_at_rest, side_at(laws, k, at), of(loads.side, k));
+    V const side = hn::IfThenElse(is_at_rest, side_at(gaps, k, at), of(loads.side, k));
     hn::StoreU(at.y, d, loads.y.data() + k);
     hn::StoreU(at.dy, d, loads.dy.data() + k);
     hn::StoreU(side, d, loads.side.data() + k);
@@ -158,25 +158,25 @@ void speed_to(EightSubSteps const& steps, Motions const& at, bool begins, EightL
   }
 }
 
-bool whole_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, Eight const& driven,
+bool whole_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double part, Eight const& driven,
                     EightLoads& loads) {
   bool any = false;
   for (std::size_t k = 0; k < gap_lanes; k += hn::MaxLanes(d)) {
     Places const at{of(loads.y, k), of(loads.dy, k)};
     V const side = of(loads.side, k), now = of(driven, k), jerk = of(loads.jerk, k);
-    V const gap = hn::Mul(side, of(laws.half_gap, k));
+    V const gap = hn::Mul(side, of(gaps.half_gap, k));
     auto const flies = hn::Eq(side, hn::Zero(d));
     Places next = at;
     if (!hn::AllTrue(d, flies)) {
-      next = rung(laws, steps, k, {hn::Sub(at.y, gap), at.dy}, now, jerk);
+      next = rung(gaps, steps, k, {hn::Sub(at.y, gap), at.dy}, now, jerk);
       next.y = hn::Add(next.y, gap);
     }
     if (!hn::AllFalse(d, flies)) {
-      Places const in_gap = flown(laws, steps, k, at, now, jerk);
+      Places const in_gap = flown(gaps, steps, k, at, now, jerk);
       next = {hn::IfThenElse(flies, in_gap.y, next.y), hn::IfThenElse(flies, in_gap.dy, next.dy)};
     }
     auto const is_over = hn::Ge(set(part), of(steps.count, k));
-    auto const stays = hn::Eq(side_at(laws, k, next), side);
+    auto const stays = hn::Eq(side_at(gaps, k, next), side);
     auto const moves = hn::AndNot(is_over, stays);
     auto const is_quiet = hn::Or(is_over, stays);
     hn::StoreU(hn::IfThenElse(moves, next.y, at.y), d, loads.y.data() + k);
@@ -193,24 +193,24 @@ void drive_on(EightSubSteps const& steps, EightLoads& loads) {
     hn::StoreU(hn::Add(of(loads.now, k), hn::Mul(of(loads.jerk, k), of(steps.time_s, k))), d, loads.now.data() + k);
 }
 
-void drive_to(EightLaws const& laws, Motions const& at, double step_s, EightLoads& loads) {
+void drive_to(EightGaps const& gaps, Motions const& at, double step_s, EightLoads& loads) {
   for (std::size_t k = 0; k < gap_lanes; k += hn::MaxLanes(d)) {
-    V const from = of(loads.drive, k), to = drive_of(laws, loads, at, k);
+    V const from = of(loads.drive, k), to = drive_of(gaps, loads, at, k);
     hn::StoreU(from, d, loads.now.data() + k);
     hn::StoreU(hn::Div(hn::Sub(to, from), set(step_s)), d, loads.jerk.data() + k);
     hn::StoreU(to, d, loads.drive.data() + k);
   }
 }
 
-void pull_of_loads(EightLaws const& laws, EightLoads const& loads, Motions const& at, double* pull) {
+void pull_of_loads(EightGaps const& gaps, EightLoads const& loads, Motions const& at, double* pull) {
   for (std::size_t k = 0; k < gap_lanes; k += hn::MaxLanes(d)) {
     V const side = of(loads.side, k), dy = of(loads.dy, k);
-    V const beyond = hn::Sub(of(loads.y, k), hn::Mul(side, of(laws.half_gap, k)));
-    V const of_grease = hn::Mul(of(laws.film_push_per_s, k), dy);
+    V const beyond = hn::Sub(of(loads.y, k), hn::Mul(side, of(gaps.half_gap, k)));
+    V const of_grease = hn::Mul(of(gaps.film_push_per_s, k), dy);
     auto const flies = hn::Eq(side, hn::Zero(d));
-    V const push = hn::Neg(hn::IfThenElse(flies, of_grease, push_of_flank(laws, k, beyond, dy)));
-    V const dry = dry_against(laws, k, of(at.dq, at.is_common, k));
-    hn::StoreU(hn::Sub(push, hn::Add(drive_of(laws, loads, at, k), dry)), d, pull + k);
+    V const push = hn::Neg(hn::IfThenElse(flies, of_grease, push_of_flank(gaps, k, beyond, dy)));
+    V const dry = dry_against(gaps, k, of(at.dq, at.is_common, k));
+    hn::StoreU(hn::Sub(push, hn::Add(drive_of(gaps, loads, at, k), dry)), d, pull + k);
   }
 }
 
@@ -235,8 +235,8 @@ TORQUESCOPE_EXPORT(pull_of_loads);
 TORQUESCOPE_EXPORT(put_torques);
 }  // namespace
 
-void drive_to(EightLaws const& laws, Motions const& at, double step_s, EightLoads& loads) {
-  TORQUESCOPE_DISPATCH(drive_to)(laws, at, step_s, loads);
+void drive_to(EightGaps const& gaps, Motions const& at, double step_s, EightLoads& loads) {
+  TORQUESCOPE_DISPATCH(drive_to)(gaps, at, step_s, loads);
 }
 
 void drive_on(EightSubSteps const& steps, EightLoads& loads) { TORQUESCOPE_DISPATCH(drive_on)(steps, loads); }
@@ -245,21 +245,21 @@ void speed_to(EightSubSteps const& steps, Motions const& at, bool begins, EightL
   TORQUESCOPE_DISPATCH(speed_to)(steps, at, begins, loads);
 }
 
-void before_dry_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, EightLoads& loads) {
-  TORQUESCOPE_DISPATCH(before_dry_sub_step)(laws, steps, part, loads);
+void before_dry_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double part, EightLoads& loads) {
+  TORQUESCOPE_DISPATCH(before_dry_sub_step)(gaps, steps, part, loads);
 }
 
-void after_dry_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, EightLoads& loads) {
-  TORQUESCOPE_DISPATCH(after_dry_sub_step)(laws, steps, part, loads);
+void after_dry_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double part, EightLoads& loads) {
+  TORQUESCOPE_DISPATCH(after_dry_sub_step)(gaps, steps, part, loads);
 }
 
-bool whole_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, Eight const& driven,
+bool whole_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double part, Eight const& driven,
                     EightLoads& loads) {
-  return TORQUESCOPE_DISPATCH(whole_sub_step)(laws, steps, part, driven, loads);
+  return TORQUESCOPE_DISPATCH(whole_sub_step)(gaps, steps, part, driven, loads);
 }
 
-void pull_of_loads(EightLaws const& laws, EightLoads const& loads, Motions const& at, double* pull) {
-  TORQUESCOPE_DISPATCH(pull_of_loads)(laws, loads, at, pull);
+void pull_of_loads(EightGaps const& gaps, EightLoads const& loads, Motions const& at, double* pull) {
+  TORQUESCOPE_DISPATCH(pull_of_loads)(gaps, loads, at, pull);
 }
 
 void put_torques(double const* pull, double size, double* torque) {

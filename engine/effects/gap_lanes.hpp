@@ -16,7 +16,7 @@ inline constexpr std::size_t gap_lanes = 8;
 using Eight = std::array<double, gap_lanes>;
 
 // as the classes of load_behind_gap.hpp call what they have
-struct EightLaws {
+struct EightGaps {
   Eight half_gap{};
   Eight square{}, push_per_s{}, decay{}, ringing{}, per_square{}, lag{}, per_ringing{};  // of the flank
   Eight film_push_per_s{}, per_film{};                                                   // of the grease
@@ -46,7 +46,7 @@ struct EightLoads {
 };
 
 // the joint comes to `at` within a step
-void drive_to(EightLaws const& laws, Motions const& at, double step_s, EightLoads& loads);
+void drive_to(EightGaps const& gaps, Motions const& at, double step_s, EightLoads& loads);
 // the drive goes on for a part of it
 void drive_on(EightSubSteps const& steps, EightLoads& loads);
 
@@ -54,16 +54,16 @@ void drive_on(EightSubSteps const& steps, EightLoads& loads);
 // there
 void speed_to(EightSubSteps const& steps, Motions const& at, bool begins, EightLoads& loads);
 // LoadBehindGap::dry_sub_step up to the sub-step itself, and after it
-void before_dry_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, EightLoads& loads);
-void after_dry_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, EightLoads& loads);
+void before_dry_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double part, EightLoads& loads);
+void after_dry_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double part, EightLoads& loads);
 
 // the part of this number, of loads that have so many; whether there was any event. driven: as loads.now, or friction
 // included
-bool whole_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, Eight const& driven,
+bool whole_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double part, Eight const& driven,
                     EightLoads& loads);
 
 // LoadBehindGap::push less what a load that is fixed to the motor would need there
-void pull_of_loads(EightLaws const& laws, EightLoads const& loads, Motions const& at, double* pull);
+void pull_of_loads(EightGaps const& gaps, EightLoads const& loads, Motions const& at, double* pull);
 // of eight loads of this size
 void put_torques(double const* pull, double size, double* torque);
 

@@ -1,6 +1,6 @@
 #pragma once
 // An effect of several joints, as one of them feels it: its columns come with the recording (EffectInput::given), since
-// they are functions of the other joints' motion. Looked for in whole arms alone (arms/arm_laws.hpp).
+// they are functions of the other joints' motion. Looked for in whole arms alone (arms/arm_effects.hpp).
 //
 // Columns    zero where the recording has none
 // Simulation in replicates, whose other joints move as recorded (simulate/lane_effect.hpp). A single joint cannot be
@@ -22,6 +22,6 @@ class GivenEffect final : public Effect {
 };
 
 // of all joints of an arm; find_effect() knows them too
-std::vector<Effect const*> const& arm_law_choices();
+std::vector<Effect const*> const& arm_effect_choices();
 
 }  // namespace torquescope

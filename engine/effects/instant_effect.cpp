@@ -36,7 +36,7 @@ void InstantEffect::columns(EffectInput const& input, std::span<double const> sh
     auto const& motion = input.motion;
     JointStates const at{part(motion.time_s.data()), part(motion.q.data()),          part(motion.dq.data()),
                          part(motion.ddq.data()),    part(input.load_torque.data()), part(input.model_torque.data())};
-    law(at, shape, input.scales, out.middleRows(first, n).array());
+    evaluate(at, shape, input.scales, out.middleRows(first, n).array());
   }
 }
 
@@ -59,7 +59,7 @@ void InstantEffect::torques(JointStates const& at, std::span<double const> param
   TORQUESCOPE_EXPECT(at.size() <= states_at_once && out.size() == static_cast<std::size_t>(at.size()));
   std::array<double, 8 * states_at_once> values;
   Eigen::Map<Eigen::ArrayXXd> columns(values.data(), at.size(), static_cast<Eigen::Index>(n_linear()));
-  law(at, parameters.subspan(n_linear()), scales, columns);
+  evaluate(at, parameters.subspan(n_linear()), scales, columns);
   Eigen::Map<Eigen::ArrayXd> sum(out.data(), at.size());
   sum.setZero();
   for (Eigen::Index k = 0; k < columns.cols(); ++k) sum += parameters[static_cast<std::size_t>(k)] * columns.col(k);

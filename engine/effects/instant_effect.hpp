@@ -1,6 +1,6 @@
 #pragma once
-// An effect without memory: its columns at one instant are a function of that instant. Files in effects/ add law(), the
-// equation over arrays: recordings, replicates and single instants all go through it.
+// An effect without memory: its columns at one instant are a function of that instant. Files in effects/ add
+// evaluate(), the equation over arrays: recordings, replicates and single instants all go through it.
 
 #include "engine/effects/effect.hpp"
 #include "engine/effects/joint_states.hpp"
@@ -20,8 +20,8 @@ class InstantEffect : public Effect {
 
  protected:
   // out: states.size() x n_linear(), no part of the states
-  virtual void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-                   LawColumns out) const = 0;
+  virtual void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                        EffectColumns out) const = 0;
 };
 
 }  // namespace torquescope

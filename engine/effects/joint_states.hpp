@@ -1,5 +1,5 @@
 #pragma once
-// One instant of a joint, instants side by side, one array per quantity, and the functions that laws of effects are
+// One instant of a joint, instants side by side, one array per quantity, and the functions that effects are
 // written with.
 //
 // Shapes     n instants, n <= states_at_once: a block of a recording, the lanes of a group of replicates, or one
@@ -46,7 +46,7 @@ struct JointStates {
 // a quantity an effect needs on its way
 using Scratch = Eigen::Array<double, Eigen::Dynamic, 1, 0, states_at_once, 1>;
 // n x n_linear(): torque per unit of each linear parameter
-using LawColumns = Eigen::Ref<Eigen::ArrayXXd>;
+using EffectColumns = Eigen::Ref<Eigen::ArrayXXd>;
 
 // -1, 0, 1; sign(0) = 0
 inline auto sign(JointStates::Quantity const& velocity) {
@@ -60,21 +60,24 @@ inline auto friction_sign(JointStates::Quantity const& velocity, JointScales con
 // 1 from `start` on, 0 before
 inline auto is_after(JointStates::Quantity const& time_s, double start) { return (time_s >= start).cast<double>(); }
 
-using LawColumn = Eigen::Ref<Eigen::ArrayXd>;
+using EffectColumn = Eigen::Ref<Eigen::ArrayXd>;
 
 // x = e^x
-inline void exponential(LawColumn x) { kernels::exponential(x.data(), static_cast<std::size_t>(x.size()), x.data()); }
+inline void exponential(EffectColumn x) {
+  kernels::exponential(x.data(), static_cast<std::size_t>(x.size()), x.data());
+}
 
 // x = ln x
-inline void logarithm(LawColumn x) { kernels::logarithm(x.data(), static_cast<std::size_t>(x.size()), x.data()); }
+inline void logarithm(EffectColumn x) { kernels::logarithm(x.data(), static_cast<std::size_t>(x.size()), x.data()); }
 
 // x = |x|^exponent
-inline void power_of_size(LawColumn x, double exponent) {
+inline void power_of_size(EffectColumn x, double exponent) {
   kernels::power_of_size(x.data(), exponent, static_cast<std::size_t>(x.size()), x.data());
 }
 
 // cos(factor x), sin(factor x)
-inline void cosine_sine(double factor, Eigen::Ref<Eigen::ArrayXd const> const& x, LawColumn cosine, LawColumn sine) {
+inline void cosine_sine(double factor, Eigen::Ref<Eigen::ArrayXd const> const& x, EffectColumn cosine,
+                        EffectColumn sine) {
   kernels::cosine_sine_of_multiple(factor, x.data(), static_cast<std::size_t>(x.size()), cosine.data(), sine.data());
 }
 

@@ -26,14 +26,14 @@ class LoadsBehindGap final : public EffectMemory {
     for (Eigen::Index i = 0; i < input.size(); ++i) {
       Motions const at{&input.motion.dq[i], &input.motion.ddq[i], true};
       for (std::size_t block = 0; block < blocks_.size(); ++block) {
-        auto& [laws, loads, has_dry] = blocks_[block];
+        auto& [gaps, loads, has_dry] = blocks_[block];
         if (i > 0) {
           if (!weights.empty()) loads.weight.fill(weights[static_cast<std::size_t>(i)]);
           follow(block, at, input.motion.time_s[i] - input.motion.time_s[i - 1]);
         } else {
           start(block, [&](std::size_t) { return input.state(0); });
         }
-        pull_of_loads(laws, loads, at, pull.data());
+        pull_of_loads(gaps, loads, at, pull.data());
         for (std::size_t k = 0; k < lanes_of(block); ++k)
           out(i, static_cast<Eigen::Index>(block * gap_lanes + k)) = pull[k];
       }
@@ -58,8 +58,8 @@ class LoadsBehindGap final : public EffectMemory {
     for (std::size_t block = 0; block < blocks_.size(); ++block) {
       Room room;
       Eight pull;
-      auto const& [laws, loads, has_dry] = blocks_[block];
-      pull_of_loads(laws, loads, motions(at, block, room), pull.data());
+      auto const& [gaps, loads, has_dry] = blocks_[block];
+      pull_of_loads(gaps, loads, motions(at, block, room), pull.data());
       put_torques(pull.data(), linear[0], pull.data());
       std::copy_n(pull.begin(), lanes_of(block), out.begin() + static_cast<std::ptrdiff_t>(block * gap_lanes));
     }
@@ -68,7 +68,7 @@ class LoadsBehindGap final : public EffectMemory {
  private:
   // lanes behind the last load are never in a gap and never meet a flank
   struct Block {
-    EightLaws laws{};
+    EightGaps gaps{};
     EightLoads loads{};
     bool has_dry = false;
   };
@@ -81,22 +81,22 @@ class LoadsBehindGap final : public EffectMemory {
     std::size_t const k = loads_.size() % gap_lanes;
     loads_.push_back(fresh);
     if (k == 0) blocks_.emplace_back();
-    EightLaws& laws = blocks_.back().laws;
+    EightGaps& gaps = blocks_.back().gaps;
     Flank const& flank = fresh.flank();
-    laws.half_gap[k] = fresh.half_gap();
-    laws.square[k] = flank.omega() * flank.omega();
-    laws.push_per_s[k] = flank.push_per_s();
-    laws.decay[k] = flank.decay();
-    laws.ringing[k] = flank.ringing();
-    laws.per_square[k] = flank.per_square();
-    laws.lag[k] = flank.lag();
-    laws.per_ringing[k] = flank.per_ringing();
-    laws.film_push_per_s[k] = fresh.grease().push_per_s();
-    laws.per_film[k] = fresh.grease().per_film();
-    laws.drag_per_s[k] = fresh.drag_per_s();
-    laws.forward[k] = fresh.dry().forward;
-    laws.backward[k] = fresh.dry().backward;
-    laws.is_dry[k] = fresh.dry().is_there() ? 1.0 : 0.0;
+    gaps.half_gap[k] = fresh.half_gap();
+    gaps.square[k] = flank.omega() * flank.omega();
+    gaps.push_per_s[k] = flank.push_per_s();
+    gaps.decay[k] = flank.decay();
+    gaps.ringing[k] = flank.ringing();
+    gaps.per_square[k] = flank.per_square();
+    gaps.lag[k] = flank.lag();
+    gaps.per_ringing[k] = flank.per_ringing();
+    gaps.film_push_per_s[k] = fresh.grease().push_per_s();
+    gaps.per_film[k] = fresh.grease().per_film();
+    gaps.drag_per_s[k] = fresh.drag_per_s();
+    gaps.forward[k] = fresh.dry().forward;
+    gaps.backward[k] = fresh.dry().backward;
+    gaps.is_dry[k] = fresh.dry().is_there() ? 1.0 : 0.0;
     blocks_.back().has_dry = blocks_.back().has_dry || fresh.dry().is_there();
   }
 
@@ -147,15 +147,15 @@ class LoadsBehindGap final : public EffectMemory {
 
   // weights are known
   void follow(std::size_t block, Motions const& at, double step_s) {
-    auto& [laws, loads, has_dry] = blocks_[block];
+    auto& [gaps, loads, has_dry] = blocks_[block];
     EightSubSteps const& steps = sub_steps_in(step_s)[block];
-    drive_to(laws, at, step_s, loads);
+    drive_to(gaps, at, step_s, loads);
     if (has_dry) speed_to(steps, at, true, loads);
     Eight const& driven = has_dry ? loads.pulled : loads.now;
     for (double part = 0.0; part < steps.most; part += 1.0) {
-      if (has_dry) before_dry_sub_step(laws, steps, part, loads);
-      if (whole_sub_step(laws, steps, part, driven, loads)) meet_events(block, driven, step_s);
-      if (has_dry) after_dry_sub_step(laws, steps, part, loads);
+      if (has_dry) before_dry_sub_step(gaps, steps, part, loads);
+      if (whole_sub_step(gaps, steps, part, driven, loads)) meet_events(block, driven, step_s);
+      if (has_dry) after_dry_sub_step(gaps, steps, part, loads);
       drive_on(steps, loads);
     }
     if (has_dry) speed_to(steps, at, false, loads);

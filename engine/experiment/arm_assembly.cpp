@@ -15,7 +15,7 @@
 #include "engine/data/filter_suggestion.hpp"
 #include "engine/data/health/joined_findings.hpp"
 #include "engine/data/health/make_arm_recording.hpp"
-#include "engine/diagnose/arms/law_shapes.hpp"
+#include "engine/diagnose/arms/effect_shapes.hpp"
 #include "engine/experiment/arm_instruments.hpp"
 #include "engine/experiment/arm_keys.hpp"
 #include "engine/experiment/arm_wrench.hpp"
@@ -258,9 +258,9 @@ void stack(std::vector<RecordedRows> const& rows, Experiment::Parts const& parts
 
 void use_recordings(Experiment::Parts& parts, Files&& train, Files&& validation) {
   auto& model = parts.arm->model;
-  if (!model.laws().empty()) {
+  if (!model.effects().empty()) {
     ArmFilter const filter{parts.filter, section_or_empty(parts.job, "filter")};
-    model = model.with_laws(refined_laws(model, train, filter));
+    model = model.with_effects(refined_effects(model, train, filter));
   }
   if (parts.arm->keeps_channels) {
     parts.arm->train = train;
@@ -304,7 +304,7 @@ ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Paylo
   terms.velocity_deadband = options.velocity_deadband;
   terms.payloads = payloads;
   terms.drive_gains = options.drive_gains;
-  terms.laws = read_arm_laws(job, chain);
+  terms.effects = read_arm_effects(job, chain);
   std::string const sha256 = digest_of(chain);
   ArmParts arm{ArmModel(std::move(chain), terms, section_or_empty(job, "model")), options.robot, sha256};
   arm.otherwise = std::move(otherwise);

@@ -20,8 +20,8 @@ using Eigen::VectorXd;
 // its branches hold the joint: what noise has turned round drives it, and no arm has that
 bool brakes(PlantTerm const& term) {
   if (!term.effect->is_dry_friction()) return true;
-  JointLaws const law({term});
-  return law.dry({}, -1.0) <= law.dry({}, 1.0);
+  JointEffects const effect({term});
+  return effect.dry({}, -1.0) <= effect.dry({}, 1.0);
 }
 
 std::vector<Effect const*> friction_terms(ArmModel const& model, std::size_t joint) {
@@ -81,7 +81,7 @@ ReplicatedLoop loop_of(Recording const& joint, VectorXd const& needed) {
   auto const alone = fit(joint.torque), beside = fit(joint.torque - needed);
   bool const is_fed_forward = beside.noise.std < alone.noise.std;
   ReplicatedLoop loop;
-  loop.law = is_fed_forward ? beside.law : alone.law;
+  loop.controller = is_fed_forward ? beside.controller : alone.controller;
   loop.reference = joint.reference;
   if (is_fed_forward) loop.fed_forward = needed;
   loop.start_position = joint.position[0];

@@ -2,8 +2,8 @@
 // Instruments of an arm's recordings: the regressor along the motion that the identified arm makes, without noise, on
 // the recorded references.
 //
-// Loops      of each joint a linear law (simulate/controller_fit.hpp), found beside the torque that the arm needs on
-//            its reference (computed torque) and without it: the law that leaves less
+// Loops      of each joint a linear controller (simulate/controller_fit.hpp), found beside the torque that the arm
+//            needs on its reference (computed torque) and without it: the one that leaves less
 // Rows       those of the recording: its masks, its gaps, its filter
 // Errors     Error 78: no reference, at the estimator that needs one. Error 65 of the function: the arm runs away
 // Threads    the function is const

@@ -66,7 +66,7 @@ std::optional<double> number_in(Setting const& setting) {
   return value ? std::optional(std::get<double>(*value)) : std::nullopt;
 }
 
-Effect const* effect_of_law(Section const& section, JointKind kind, std::vector<Problem>& problems) {
+Effect const* effect_of_section(Section const& section, JointKind kind, std::vector<Problem>& problems) {
   Setting const* const name = section.find("name");
   auto const* const word = name ? std::get_if<std::string>(&name->value) : nullptr;
   Effect const* const effect = word ? find_effect(*word) : nullptr;
@@ -79,7 +79,7 @@ Effect const* effect_of_law(Section const& section, JointKind kind, std::vector<
   return nullptr;
 }
 
-std::optional<std::size_t> joint_of_law(Section const& section, std::size_t joints, std::vector<Problem>& problems) {
+std::optional<std::size_t> joint_of_effect(Section const& section, std::size_t joints, std::vector<Problem>& problems) {
   Setting const* const setting = section.find("joint");
   auto const number = setting ? number_in(*setting) : std::nullopt;
   for (std::size_t j = 0; number && j < joints; ++j)
@@ -90,7 +90,7 @@ std::optional<std::size_t> joint_of_law(Section const& section, std::size_t join
 }
 
 // where the search of its shapes begins; none of them: anywhere
-std::vector<double> shape_of_law(Section const& section, Effect const& effect, std::vector<Problem>& problems) {
+std::vector<double> shape_of_effect(Section const& section, Effect const& effect, std::vector<Problem>& problems) {
   std::vector<std::string> known{"name", "joint"};
   std::vector<double> shape;
   for (std::size_t k = effect.n_linear(); k < effect.parameters().size(); ++k) {
@@ -113,24 +113,25 @@ std::vector<double> shape_of_law(Section const& section, Effect const& effect, s
 
 }  // namespace
 
-std::vector<HeldLaw> read_arm_laws(Job const& job, SerialChain const& chain) {
+std::vector<HeldEffect> read_arm_effects(Job const& job, SerialChain const& chain) {
   std::vector<Problem> problems;
-  std::vector<HeldLaw> laws;
+  std::vector<HeldEffect> effects;
   for (Section const* section : job.all("model.effects")) {
-    auto const joint = joint_of_law(*section, chain.joints.size(), problems);
+    auto const joint = joint_of_effect(*section, chain.joints.size(), problems);
     if (!joint) continue;
-    Effect const* effect = effect_of_law(*section, chain.joints[*joint].kind, problems);
+    Effect const* effect = effect_of_section(*section, chain.joints[*joint].kind, problems);
     if (effect == nullptr) continue;
-    bool const is_there = std::any_of(laws.begin(), laws.end(),
-                                      [&](HeldLaw const& law) { return law.effect == effect && law.joint == *joint; });
+    bool const is_there = std::any_of(effects.begin(), effects.end(), [&](HeldEffect const& other) {
+      return other.effect == effect && other.joint == *joint;
+    });
     if (is_there)
       problems.push_back(problem_at(*section, "name",
                                     fmt::format("{} of joint {} stands there twice", effect->name(), *joint + 1),
                                     "remove one"));
-    laws.push_back({effect, *joint, shape_of_law(*section, *effect, problems)});
+    effects.push_back({effect, *joint, shape_of_effect(*section, *effect, problems)});
   }
   if (!problems.empty()) throw Error(std::move(problems));
-  return laws;
+  return effects;
 }
 
 void choose_arm_effects(Experiment::Parts& parts, std::vector<Problem>& problems) {
@@ -141,8 +142,8 @@ void choose_arm_effects(Experiment::Parts& parts, std::vector<Problem>& problems
       if (effect->is_rigid_body()) has.push_back(effect->name());
     if (auto const& friction = model.friction()[j])
       for (Effect const* effect : friction->terms()) has.push_back(effect->name());
-    for (HeldLaw const& law : model.laws())
-      if (law.joint == j) has.push_back(law.effect->name());
+    for (HeldEffect const& held : model.effects())
+      if (held.joint == j) has.push_back(held.effect->name());
     std::vector<Problem> own;
     parts.arm->effects.push_back(chosen_effects(parts.diagnose, model.chain().joints[j].kind, has,
                                                 section_or_empty(parts.job, "diagnose"), own, JointsOfJob::of_an_arm));
@@ -161,7 +162,7 @@ void refuse_joint_keys(Job const& job, std::vector<Problem>& problems) {
   }
 }
 
-void refuse_beside_laws(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems) {
+void refuse_beside_effects(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems) {
   auto const sections = job.all("estimator");
   for (std::size_t i = 0; i < plans.size(); ++i)
     if (plans[i].needs_instruments)

@@ -19,10 +19,10 @@ void refuse_joint_keys(Job const& job, std::vector<Problem>& problems);
 void choose_arm_effects(Experiment::Parts& parts, std::vector<Problem>& problems);
 
 // [[model.effects]] of an arm: effects of joints, with shapes where the job has them. Throws
-std::vector<HeldLaw> read_arm_laws(Job const& job, SerialChain const& chain);
+std::vector<HeldEffect> read_arm_effects(Job const& job, SerialChain const& chain);
 
 // of an arm with such effects: what would simulate it
-void refuse_beside_laws(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems);
+void refuse_beside_effects(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems);
 
 // of an arm whose drives are coupled: what would simulate it
 void refuse_beside_coupled_drives(Job const& job, std::vector<EstimatorPlan> const& plans,

@@ -111,7 +111,7 @@ void read_model(Experiment::Parts& parts, ModelOptions const& model, JobPlan& pl
   if (!is_arm) refuse_arm_keys(parts.job, parts.estimators, problems);
   if (parts.arm && parts.arm->model.chain().has_coupled_drives())
     refuse_beside_coupled_drives(parts.job, parts.estimators, problems);
-  if (parts.arm && !parts.arm->model.laws().empty()) refuse_beside_laws(parts.job, parts.estimators, problems);
+  if (parts.arm && !parts.arm->model.effects().empty()) refuse_beside_effects(parts.job, parts.estimators, problems);
 }
 
 // throws everything that the text alone can be refused for

@@ -18,7 +18,7 @@
 #include "engine/fit/problem/estimator.hpp"
 #include "engine/fit/problem/loss.hpp"
 #include "engine/robot/robot_options.hpp"
-#include "engine/simulate/rollout/drive_law.hpp"
+#include "engine/simulate/rollout/drive_effect.hpp"
 #include "engine/simulate/rollout/loop_options.hpp"
 #include "engine/simulate/simulation_plan.hpp"
 
@@ -54,7 +54,7 @@ bool is_time_of_a_channel(Effect const& effect) {
 
 void add_effects(std::vector<CatalogueEntry>& entries) {
   std::vector<Effect const*> effects = effect_choices();
-  effects.insert(effects.end(), arm_law_choices().begin(), arm_law_choices().end());
+  effects.insert(effects.end(), arm_effect_choices().begin(), arm_effect_choices().end());
   for (Effect const* effect : effects) {
     CatalogueEntry entry{effect->name(), "effect", effect->title() + " [" + word(effect->family()) + "]", {}, {}};
     entry.text.push_back("family     " + joined(effect->families()));
@@ -83,13 +83,14 @@ void add_effects(std::vector<CatalogueEntry>& entries) {
   }
 }
 
-void add_drive_laws(std::vector<CatalogueEntry>& entries) {
-  for (DriveLaw const* law : drive_laws())
-    entries.push_back({law->name,
-                       "law",
-                       law->title,
-                       {fmt::format("equation   {}", law->equation), fmt::format("confused   with {}", law->confused)},
-                       {}});
+void add_drive_effects(std::vector<CatalogueEntry>& entries) {
+  for (DriveEffect const* effect : drive_effects())
+    entries.push_back(
+        {effect->name,
+         "law",
+         effect->title,
+         {fmt::format("equation   {}", effect->equation), fmt::format("confused   with {}", effect->confused)},
+         {}});
 }
 
 void append(std::vector<OptionDescription>& options, std::vector<OptionDescription> const& more) {
@@ -219,7 +220,7 @@ std::vector<CatalogueEntry> const& catalogue() {
   static std::vector<CatalogueEntry> const entries = [] {
     std::vector<CatalogueEntry> made;
     add_effects(made);
-    add_drive_laws(made);
+    add_drive_effects(made);
     add_estimators(made);
     add_readers_and_losses(made);
     add_sections(made);

@@ -17,7 +17,7 @@ bool contains(std::vector<std::string> const& names, std::string const& name) {
 std::vector<std::string> catalogue_names() {
   std::vector<std::string> names;
   for (Effect const* effect : effect_choices()) names.push_back(effect->name());
-  for (Effect const* effect : arm_law_choices()) names.push_back(effect->name());
+  for (Effect const* effect : arm_effect_choices()) names.push_back(effect->name());
   return names;
 }
 
@@ -81,7 +81,7 @@ std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointK
     for (Effect const* effect : effect_choices())
       if (effect->exists_on(joint) && !contains(model_terms, effect->name())) chosen.push_back(effect);
     if (joints == JointsOfJob::of_an_arm)
-      chosen.insert(chosen.end(), arm_law_choices().begin(), arm_law_choices().end());
+      chosen.insert(chosen.end(), arm_effect_choices().begin(), arm_effect_choices().end());
     return chosen;
   }
   if (options.effects.empty())

@@ -19,7 +19,7 @@ namespace {
 constexpr double cpu_s_per_fitted = 8e-4, cpu_s_per_sample = 1e-4, cpu_s_per_row_replicate = 3e-4;
 constexpr double most_cores_used = 8.0;
 constexpr double bytes_at_least = 5e7, bytes_per_sample = 300.0, bytes_per_row_replicate = 250.0;
-// rows a second for each Hz of the parallel cut-off (all_rows/strip.cpp)
+// rows a second for each Hz of the parallel cut-off (decision/strip.cpp)
 constexpr double rows_per_cutoff = 2.56;
 // from here on fewer rows are worth a word
 constexpr double many_rows = 3e4;

@@ -10,7 +10,7 @@
 #include "engine/data/arm_recording.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/health/finding_text.hpp"
-#include "engine/diagnose/arms/law_shapes.hpp"
+#include "engine/diagnose/arms/effect_shapes.hpp"
 #include "engine/experiment/arm_findings.hpp"
 #include "engine/experiment/arm_wrench.hpp"
 #include "engine/experiment/diagnosis_estimate.hpp"
@@ -207,17 +207,17 @@ std::vector<std::string> Experiment::warnings() const {
 namespace {
 
 // "stribeck of joint 2: stribeck_speed = 0.031 rad/s, stribeck_exponent = 1.9, refined in the fit"
-std::string law_words(HeldLaw const& law, JointKind kind) {
-  std::string text = fmt::format("{} of joint {}", law.effect->name(), law.joint + 1);
-  for (std::size_t k = 0; k < law.shape.size(); ++k) {
-    auto const& parameter = law.effect->parameters()[law.effect->n_linear() + k];
+std::string effect_words(HeldEffect const& held, JointKind kind) {
+  std::string text = fmt::format("{} of joint {}", held.effect->name(), held.joint + 1);
+  for (std::size_t k = 0; k < held.shape.size(); ++k) {
+    auto const& parameter = held.effect->parameters()[held.effect->n_linear() + k];
     std::string const unit = parameter.unit_for(kind);
-    text += fmt::format("{} {} = {:.4g}{}", k == 0 ? ":" : ",", parameter.name, law.shape[k],
+    text += fmt::format("{} {} = {:.4g}{}", k == 0 ? ":" : ",", parameter.name, held.shape[k],
                         unit == "1" ? "" : " " + unit);
   }
-  if (!law.shape.empty()) text += ", refined in the fit";
-  for (std::size_t const k : shapes_at_bounds(law))
-    text += fmt::format("; {} ends at the bound of what is plausible", shape_name(law, k));
+  if (!held.shape.empty()) text += ", refined in the fit";
+  for (std::size_t const k : shapes_at_bounds(held))
+    text += fmt::format("; {} ends at the bound of what is plausible", shape_name(held, k));
   return text;
 }
 
@@ -230,8 +230,8 @@ std::vector<std::string> Experiment::remarks() const {
   for (auto const& finding : findings())
     if (finding.grade == Grade::note) lines.push_back(fmt::format("{}: {}", finding.recording, sentence_of(finding)));
   if (parts_->arm)
-    for (auto const& law : parts_->arm->model.laws())
-      lines.push_back(law_words(law, parts_->arm->model.chain().joints[law.joint].kind));
+    for (auto const& effect : parts_->arm->model.effects())
+      lines.push_back(effect_words(effect, parts_->arm->model.chain().joints[effect.joint].kind));
   if (parts_->filter_is_chosen)
     lines.push_back(fmt::format(
         "filter (no [filter]): cutoff_hz = {:g}, parallel_cutoff_hz = {:g}, decimate_to_hz = {:g}, chosen from {}",

@@ -67,7 +67,7 @@ std::optional<Finding> sign_finding(Experiment::Parts const& parts, RecordingOpt
 std::optional<Finding> factor_finding(Experiment::Parts const& parts, RecordingOptions const& options) {
   auto const factor = position_factor(parts.train.regression, *parts.regressor);
   if (!factor) return {};
-  // a unit that people forget is no accident; a ratio may be a law of the position that the model lacks
+  // a unit that people forget is no accident; a ratio may be an effect of the position that the model lacks
   Finding finding{FindingKind::position_factor, factor->words.empty() ? Grade::warning : Grade::fault};
   finding.size = factor->factor;
   finding.detail = factor->words;

@@ -25,7 +25,7 @@ OptionTable<LevelOptions> const& LevelOptions::table() {
        {"fitted_samples", &LevelOptions::fitted_samples, "1", 100.0, 1e9,
         "of training, which simulations fit; of more, stretches spread over the time"},
        {"computed_torque", &LevelOptions::computed_torque, "1", 0.0, 1.0,
-        "of the torque: an effect of the loop that leaves less of it was computed with it"},
+        "of the torque: a controller that leaves less of it was computed with it"},
        {"largest_loop_error", &LevelOptions::largest_loop_error, "1", 0.0, 10.0,
         "of the torque: an identified controller that leaves more is none"}});
   return table;

@@ -8,7 +8,7 @@
 
 #include "engine/base/options.hpp"
 #include "engine/experiment/diagnose_options.hpp"
-#include "engine/infer/all_rows/decision_numbers.hpp"
+#include "engine/infer/decision/decision_numbers.hpp"
 
 namespace torquescope {
 

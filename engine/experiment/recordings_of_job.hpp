@@ -26,7 +26,7 @@ void bring_to_rate(std::vector<Recording>& recordings, double rate_hz);
 // of one file: they have one clock, so that the first alone says it
 void bring_joints_to_rate(std::vector<Recording>& joints, double rate_hz);
 
-// keeps the first `share` of every training recording; the rest stands behind `unseen`. A share of 1 changes nothing
+// keeps the first `share` of every training recording; the rest goes behind `validation`. A share of 1 changes nothing
 void split_off_validation(std::vector<Recording>& train, std::vector<Recording>& validation, double share);
 
 }  // namespace torquescope

@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/parallel.hpp"
 #include "engine/experiment/job_sections.hpp"
-#include "engine/experiment/model_laws.hpp"
+#include "engine/experiment/model_effects.hpp"
 #include "engine/simulate/rollout/loop_gains.hpp"
 
 namespace torquescope {
@@ -48,13 +48,13 @@ std::optional<Eigen::VectorXd> terms_of(Regressor const& regressor, std::vector<
 
 std::vector<ModelEffect> effects_of(JointDiagnosis const& joint, Regressor const& regressor) {
   std::vector<ModelEffect> effects;
-  for (auto const& law : laws_of(joint)) {
+  for (auto const& estimated : estimated_effects(joint)) {
     auto const& terms = regressor.terms();
-    if (law.effect == nullptr || std::find(terms.begin(), terms.end(), law.effect) != terms.end()) continue;
-    ModelEffect given{law.effect, {}};
+    if (estimated.effect == nullptr || std::find(terms.begin(), terms.end(), estimated.effect) != terms.end()) continue;
+    ModelEffect given{estimated.effect, {}};
     // numbered waves have the names of their effect, in its order
-    for (auto const& parameter : law.effect->parameters())
-      for (auto const* list : {&law.parameters, &law.held})
+    for (auto const& parameter : estimated.effect->parameters())
+      for (auto const* list : {&estimated.parameters, &estimated.held})
         for (auto const& one : *list)
           if (one.name == parameter.name || one.name.starts_with(parameter.name + "_"))
             given.values.emplace(parameter.name, one.value);
@@ -66,9 +66,9 @@ std::vector<ModelEffect> effects_of(JointDiagnosis const& joint, Regressor const
 // what effects took from the fitted baseline
 JointScales scales_of(RolloutParts const& rollout, JointDiagnosis const& joint) {
   JointScales scales = rollout.model->structure().scales;
-  if (std::isfinite(joint.law_levels.forward)) scales.coulomb_positive = joint.law_levels.forward;
-  if (std::isfinite(joint.law_levels.backward)) scales.coulomb_negative = -joint.law_levels.backward;
-  if (std::isfinite(joint.law_levels.inertia)) scales.inertia = joint.law_levels.inertia;
+  if (std::isfinite(joint.effect_levels.forward)) scales.coulomb_positive = joint.effect_levels.forward;
+  if (std::isfinite(joint.effect_levels.backward)) scales.coulomb_negative = -joint.effect_levels.backward;
+  if (std::isfinite(joint.effect_levels.inertia)) scales.inertia = joint.effect_levels.inertia;
   return scales;
 }
 
@@ -158,8 +158,9 @@ Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, st
     if (track.drive == TrackDrive::torque)
       made.window_s = rollout.plan.loop.window_s;
     else
-      made.loop_error = track.law ? loop_error(*track.law, track)
-                                  : loop_error(models.back().trial.loop, models.back().structure.speed_samples, track);
+      made.loop_error = track.controller
+                            ? loop_error(*track.controller, track)
+                            : loop_error(models.back().trial.loop, models.back().structure.speed_samples, track);
     replay.recordings[i] = std::move(made);
   });
   bool const has_simulator = std::any_of(replay.recordings.begin(), replay.recordings.end(),

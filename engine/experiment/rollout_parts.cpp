@@ -73,15 +73,16 @@ std::string said(LoopForm form, LoopOrigin origin) {
   }
 }
 
-// Recordings of one rig have one controller. Where something else acts on a recording (pulses), its own law is bent by
-// that; the law of the first training recording is taken where it answers the recorded torque more closely
-void share_law(RolloutData const& train, RolloutData& data) {
-  auto const& law = train.tracks.front().law;
-  if (!law) return;
+// Recordings of one rig have one controller. Where something else acts on a recording (pulses), its own controller is
+// bent by that; the controller of the first training recording is taken where it answers the recorded torque more
+// closely
+void share_controller(RolloutData const& train, RolloutData& data) {
+  auto const& controller = train.tracks.front().controller;
+  if (!controller) return;
   for (std::size_t k = 0; k < data.tracks.size(); ++k) {
     auto& track = data.tracks[k];
-    if (!track.law || loop_error(*track.law, track) <= loop_error(*law, track)) continue;
-    track.law = law;
+    if (!track.controller || loop_error(*track.controller, track) <= loop_error(*controller, track)) continue;
+    track.controller = controller;
     data.origins[k] = train.origins.front();
     data.loop_words[k] = fmt::format("the controller of {}, which fits this recording better than one of its own",
                                      train.tracks.front().name);
@@ -193,7 +194,7 @@ RolloutData rollout_data(std::vector<Recording> recordings, LoopOptions const& l
       if (recording.added_command.size() > 0) torque -= gain * recording.added_command;
       ControllerFit const fit =
           fit_controller({recording.time_s, recording.reference, recording.position, torque, nullptr});
-      track.law = fit.law;
+      track.controller = fit.controller;
       origin = fit.is_white ? LoopOrigin::identified : LoopOrigin::approximated;
       words = fit.remark;
     }
@@ -213,8 +214,8 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
   LoopOptions const& loop = rollout.plan.loop;
   rollout.train = rollout_data(std::move(train), loop, filter, filter_section);
   rollout.validate = rollout_data(std::move(validate), loop, filter, filter_section);
-  share_law(rollout.train, rollout.train);
-  share_law(rollout.train, rollout.validate);
+  share_controller(rollout.train, rollout.train);
+  share_controller(rollout.train, rollout.validate);
   rollout.least_squares = plain_least_squares(rows, 0).parameters;
   Recording const& first = rollout.train.recordings.front();
   Motion const motion = differentiate(first, filter, filter_section);

@@ -3,7 +3,7 @@
 // tracks of a rollout. Made once where an estimator searches by rollouts, or for a replay.
 //
 // Loop       the gains that [loop] leaves out begin at least squares on the recordings (rollout/loop_gains.hpp);
-//            controller = "identified" finds a law in each recording
+//            controller = "identified" finds a controller in each recording
 // Start      least squares on the rows of the job, a parameter of [model.given] as it is written
 // Errors     problems are appended (78), or thrown with those of track_of()
 // Threads    plain records, free functions
@@ -65,7 +65,7 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
                     std::vector<Recording> validate, RegressionData const& rows, FilterOptions const& filter,
                     Section const& filter_section);
 
-// the same of servos: their tracks know their loads, and their start is theirs (all_rows/servo_start.hpp)
+// the same of servos: their tracks know their loads, and their start is theirs (decision/servo_start.hpp)
 void add_servo(RolloutParts& rollout, Regressor const& regressor, ServoJob const& servo, RegressionData const& rows);
 
 // tracks of other recordings with the same loop

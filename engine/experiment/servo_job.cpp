@@ -11,7 +11,7 @@
 #include "engine/data/recording_reader.hpp"
 #include "engine/effects/model_options.hpp"
 #include "engine/experiment/job_sections.hpp"
-#include "engine/experiment/servo_laws.hpp"
+#include "engine/experiment/servo_effects.hpp"
 
 namespace torquescope {
 namespace {
@@ -64,8 +64,8 @@ std::string ServoJob::inputs_sha256() const {
 ServoQuestion ServoJob::question(int threads) const {
   ServoQuestion question{*regressor, loop, command, training, validation};
   question.numbers = decision_numbers(diagnose, levels);
-  question.laws = laws;
-  question.most_laws = static_cast<std::size_t>(diagnose.max_effects);
+  question.effects = effects;
+  question.most_effects = static_cast<std::size_t>(diagnose.max_effects);
   question.seed = static_cast<std::uint64_t>(experiment.seed);
   question.threads = threads;
   return question;
@@ -111,7 +111,7 @@ ServoJob read_servo_job(Job job) {
   made.entries = read_recording_set(job, problems);
   if (!problems.empty()) throw Error(std::move(problems));
   made.regressor = make_regressor(model, section_or_empty(job, "model"));
-  made.laws = servo_laws(made.diagnose, *made.regressor, section_or_empty(job, "diagnose"), problems);
+  made.effects = servo_effects(made.diagnose, *made.regressor, section_or_empty(job, "diagnose"), problems);
   std::stable_partition(made.entries.begin(), made.entries.end(), [](auto const& one) { return !one.is_validation; });
   for (auto& one : read_recordings(job, made.entries)) made.recordings.push_back(std::move(one.recording));
   refuse_faults(made.entries, made.recordings, problems);

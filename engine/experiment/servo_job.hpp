@@ -14,7 +14,7 @@
 #include "engine/experiment/job/job_options.hpp"
 #include "engine/experiment/level_options.hpp"
 #include "engine/experiment/recording_set.hpp"
-#include "engine/infer/all_rows/servo_decision.hpp"
+#include "engine/infer/decision/servo_decision.hpp"
 #include "engine/simulate/rollout/loop_options.hpp"
 
 namespace torquescope {
@@ -28,7 +28,7 @@ struct ServoJob {
   LoopSetting loop{};
   DriveCommand command = DriveCommand::voltage;
   std::optional<Regressor> regressor{};
-  ServoLaws laws{};
+  ServoEffects effects{};
   std::vector<SetEntry> entries{};      // of training, then of validation
   std::vector<Recording> recordings{};  // of each entry
   std::vector<RolloutTrack> training{}, validation{};
@@ -46,7 +46,7 @@ ServoJob read_servo_job(Job job);
 
 // [loop] of a job with [[recordings]], as its drive has it: P on the position, ticks left open
 LoopOptions servo_loop(Job const& job, std::vector<Problem>& problems);
-// the same for a fit without a choice of laws: back_emf is searched beside loop.fit; motor_gain beside a known load
+// the same for a fit without a choice of effects: back_emf is searched beside loop.fit; motor_gain beside a known load
 // alone, which fixes the scale of torques
 LoopOptions searched_servo_loop(LoopOptions loop, KnownKeys const& known);
 std::string unit_of_command(ServoJob const& job);  // "V", "A", "rad"

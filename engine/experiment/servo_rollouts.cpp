@@ -3,7 +3,7 @@
 #include "engine/experiment/rollout_parts.hpp"
 #include "engine/experiment/servo_rollouts.hpp"
 #include "engine/fit/problem/plain_least_squares.hpp"
-#include "engine/infer/all_rows/servo_start.hpp"
+#include "engine/infer/decision/servo_start.hpp"
 #include "engine/simulate/rollout/measured_drive.hpp"
 
 namespace torquescope {

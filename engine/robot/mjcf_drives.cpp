@@ -49,7 +49,7 @@ void read_actuator(MjcfDocument const& document, XmlElement const& given, RobotT
     joint.joint.max_torque = std::min(joint.joint.max_torque, gear * *control);
   if (gear == 1.0 || gear == 0.0) return;
   if (is_motor && control == 1.0) {
-    joint.laws.push_back(fmt::format("gear {:g} of a control from -1 to 1, taken as its greatest torque", gear));
+    joint.effects.push_back(fmt::format("gear {:g} of a control from -1 to 1, taken as its greatest torque", gear));
     return;
   }
   joint.joint.gear_ratio = gear;

@@ -183,9 +183,9 @@ class MjcfTreeReader {
     read.position_of_file = unit * number_of(given, "ref", 0.0);
     read.joint.drive_inertia = number_of(given, "armature", 0.0);
     read_limits(given, unit, read);
-    for (char const* const law : {"damping", "frictionloss", "stiffness"})
-      if (auto const numbers = numbers_of(given, law, 1, 3); numbers && numbers->front() != 0.0)
-        read.laws.push_back(fmt::format("{} {}", law, *given.find(law)));
+    for (char const* const key : {"damping", "frictionloss", "stiffness"})
+      if (auto const numbers = numbers_of(given, key, 1, 3); numbers && numbers->front() != 0.0)
+        read.effects.push_back(fmt::format("{} {}", key, *given.find(key)));
   }
 
   void read_limits(XmlElement const& given, double unit, TreeJoint& read) {

@@ -66,7 +66,7 @@ class ChainMaker {
     chain_.warnings = tree_.warnings;
     tell_what_is_held();
     tell_couplings();
-    tell_laws();
+    tell_effects();
     set_joints();
     merge_links();
     chain_.gravity = chain_.base.rotation.transpose() * tree_.gravity;
@@ -121,12 +121,12 @@ class ChainMaker {
   }
 
   // friction of a file is somebody's guess: a job identifies it
-  void tell_laws() {
+  void tell_effects() {
     std::string list;
     for (std::size_t i = 0; i < path_.size(); ++i)
-      if (moves(i) && !joint_at(i).laws.empty())
+      if (moves(i) && !joint_at(i).effects.empty())
         list += fmt::format("{}\"{}\" {}", list.empty() ? "" : "; ", joint_at(i).joint.name,
-                            fmt::join(joint_at(i).laws, ", "));
+                            fmt::join(joint_at(i).effects, ", "));
     if (!list.empty())
       chain_.remarks.push_back(fmt::format("not taken from the file, for [model] friction finds what it is: {}", list));
   }

@@ -27,13 +27,13 @@ struct TreeJoint {
   double position_of_file = 0.0;       // what the joint reads in the pose of the file, rad or m
   bool is_part_of_one = false;         // the child is but a frame between two joints of one body: it has no mass
   std::vector<std::string> remarks{};  // what the reader did on its own
-  std::vector<std::string> laws{};     // "damping 0.5": what the file says of it beside the rigid arm
+  std::vector<std::string> effects{};  // "damping 0.5": what the file says of it beside the rigid arm
   SourcePlace place{};
 
   bool moves_itself() const { return motion == JointMotion::moves && mimics.empty(); }
 };
 
-// a law of the file between two joints, or between one and a number (then `second` is empty)
+// an equation of the file between two joints, or between one and a number (then `second` is empty)
 struct JointCoupling {
   std::string first{}, second{};
   SourcePlace place{};

@@ -236,8 +236,9 @@ class TreeReader {
                       place_text(urdf_place(xml_, "joint", given.name, "axis")), given.name, length));
     read.axis /= length;
     if (given.dynamics) {
-      if (given.dynamics->damping != 0.0) read.laws.push_back(fmt::format("damping {:g}", given.dynamics->damping));
-      if (given.dynamics->friction != 0.0) read.laws.push_back(fmt::format("friction {:g}", given.dynamics->friction));
+      if (given.dynamics->damping != 0.0) read.effects.push_back(fmt::format("damping {:g}", given.dynamics->damping));
+      if (given.dynamics->friction != 0.0)
+        read.effects.push_back(fmt::format("friction {:g}", given.dynamics->friction));
     }
     if (!given.limits) return;
     bool const bounded = given.type != urdf::Joint::CONTINUOUS;

@@ -45,9 +45,9 @@ ArmPlant::ArmPlant(SerialChain const& chain, JointVector const& parameters, std:
       stops_(joints.size(), 0) {
   TORQUESCOPE_EXPECT(joints.size() == chain.joints.size());
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    laws_.emplace_back(joints[j].instant);
+    effects_.emplace_back(joints[j].instant);
     for (auto const& term : joints[j].remembering)
-      memories_[j].push_back(term.effect->runner(term.parameters, laws_[j].scales()));
+      memories_[j].push_back(term.effect->runner(term.parameters, effects_[j].scales()));
     needs_past_ = needs_past_ || !memories_[j].empty();
     for (auto const& term : joints[j].instant) needs_past_ = needs_past_ || term.effect->needs_baseline();
   }
@@ -62,15 +62,15 @@ void ArmPlant::set_equation(ArmState const& state, JointVector const& u) {
   equation_.set(state.q, state.dq);
   mass_ = equation_.mass();
   push_ = u - equation_.bias();
-  for (std::size_t j = 0; j < laws_.size(); ++j) {
+  for (std::size_t j = 0; j < effects_.size(); ++j) {
     auto const at = static_cast<Index>(j);
     JointState const joint = joint_state(state, j);
-    auto const smooth = laws_[j].smooth(joint);
+    auto const smooth = effects_[j].smooth(joint);
     mass_(at, at) += smooth.inertia;
     push_[at] -= smooth.coasting;
-    dry_[j] = {laws_[j].dry(joint, -1.0), laws_[j].dry(joint, 1.0)};
+    dry_[j] = {effects_[j].dry(joint, -1.0), effects_[j].dry(joint, 1.0)};
     for (auto const& memory : memories_[j]) add_memory(*memory, joint, mass_(at, at), dry_[j]);
-    // no friction drives: a law that weakens dry friction by more than there is leaves none
+    // no friction drives: an effect that weakens dry friction by more than there is leaves none
     if (joint.dq == 0.0 && dry_[j].backward > dry_[j].forward)
       dry_[j].backward = dry_[j].forward = 0.5 * (dry_[j].backward + dry_[j].forward);
   }
@@ -110,10 +110,10 @@ Eigen::VectorXd ArmPlant::inverse_dynamics(ArmState const& state, JointVector co
   equation_.set(state.q, state.dq);
   load_ = equation_.mass() * ddq + equation_.bias();
   Eigen::VectorXd u = load_;
-  for (std::size_t j = 0; j < laws_.size(); ++j) {
+  for (std::size_t j = 0; j < effects_.size(); ++j) {
     JointState joint = joint_state(state, j);
     joint.ddq = ddq[static_cast<Index>(j)];
-    u[static_cast<Index>(j)] += laws_[j].torque(joint);
+    u[static_cast<Index>(j)] += effects_[j].torque(joint);
   }
   return u;
 }

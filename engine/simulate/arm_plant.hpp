@@ -4,7 +4,7 @@
 //
 // Equation   M(q) ddq + bias(q, dq) + smooth(q, dq, ddq, t) + dry = u; at rest dry is whatever holds the joint, within
 //            the branches of either direction (stick_slip.hpp)
-// Effects    those that act on the joint (joint_laws.hpp); effects with memory step by step. Load torque, of effects
+// Effects    those that act on the joint (joint_effects.hpp); effects with memory step by step. Load torque, of effects
 //            that follow the load: M ddq + bias of the joint's row at the beginning of the step
 // Units      SI; u is the motors' torque at the joints (N m or N). No hard stops at the ends of the travel
 // Threads    one object, one thread
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/robot/arm_equation.hpp"
-#include "engine/simulate/joint_laws.hpp"
+#include "engine/simulate/joint_effects.hpp"
 #include "engine/simulate/stick_slip.hpp"
 
 namespace torquescope {
@@ -50,7 +50,7 @@ class ArmPlant {
   struct Slope {
     Eigen::VectorXd dq, ddq;
   };
-  bool has_dry(std::size_t joint) const { return laws_[joint].has_dry() || !memories_[joint].empty(); }
+  bool has_dry(std::size_t joint) const { return effects_[joint].has_dry() || !memories_[joint].empty(); }
   JointState joint_state(ArmState const& state, std::size_t joint) const;
   // M and push = u - bias - coasting at this state
   void set_equation(ArmState const& state, JointVector const& u);
@@ -62,7 +62,7 @@ class ArmPlant {
   void fix_contacts();
 
   ArmEquation equation_;
-  std::vector<JointLaws> laws_;
+  std::vector<JointEffects> effects_;
   std::vector<std::vector<std::unique_ptr<EffectRunner>>> memories_;
   bool needs_past_ = false;  // an effect remembers, or follows the load
   StickSlip stick_slip_;

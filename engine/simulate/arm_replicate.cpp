@@ -11,25 +11,25 @@ namespace {
 
 using Eigen::Index;
 
-// one joint's law, and what it remembers
+// one joint's controller, and what it remembers
 class LoopRunner {
  public:
   LoopRunner(ReplicatedLoop const& loop, double rate_hz)
-      : loop_(loop), reference_(loop.reference), open_(open_part(loop.law, loop.reference)) {
+      : loop_(loop), reference_(loop.reference), open_(open_part(loop.controller, loop.reference)) {
     if (loop.fed_forward.size() > 0) open_ += loop.fed_forward;
     // before the start the joint came along at its first velocity
-    for (std::size_t lag = 0; lag < loop.law.position.size(); ++lag)
+    for (std::size_t lag = 0; lag < loop.controller.position.size(); ++lag)
       seen_.push_back(loop.start_position - static_cast<double>(lag + 1) * loop.start_velocity / rate_hz);
   }
 
   double command(Index k, double position) {
-    auto const& law = loop_.law;
+    auto const& controller = loop_.controller;
     std::rotate(seen_.begin(), seen_.end() - 1, seen_.end());
     seen_.front() = position;
-    summed_error_ += reference_(k + law.shift) - position;
-    double torque = open_[k] + law.integral * summed_error_;
-    for (std::size_t lag = 0; lag < seen_.size(); ++lag) torque += law.position[lag] * seen_[lag];
-    return std::clamp(torque, law.least, law.most);
+    summed_error_ += reference_(k + controller.shift) - position;
+    double torque = open_[k] + controller.integral * summed_error_;
+    for (std::size_t lag = 0; lag < seen_.size(); ++lag) torque += controller.position[lag] * seen_[lag];
+    return std::clamp(torque, controller.least, controller.most);
   }
 
   bool has_run_away(Index k, double position) const {
@@ -56,7 +56,7 @@ std::optional<Eigen::MatrixXd> replicate_arm(ArmPlant plant, std::vector<Replica
   ArmState state{0.0, Eigen::VectorXd(joints), Eigen::VectorXd(joints)};
   for (Index j = 0; j < joints; ++j) {
     auto const& loop = loops[static_cast<std::size_t>(j)];
-    TORQUESCOPE_EXPECT(loop.reference.size() == n && !loop.law.position.empty());
+    TORQUESCOPE_EXPECT(loop.reference.size() == n && !loop.controller.position.empty());
     runners.emplace_back(loop, rate_hz);
     state.q[j] = loop.start_position;
     state.dq[j] = loop.start_velocity;

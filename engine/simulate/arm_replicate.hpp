@@ -1,7 +1,7 @@
 #pragma once
 // An arm once more on the references of a recording, in the recording's loops, without noise and without encoders.
 //
-// Tick       one a sample: each joint's law sees its true position, and holds its torque until the next tick
+// Tick       one a sample: each joint's controller sees its true position, and holds its torque until the next tick
 // Start      at the recording's first positions and velocities
 // Shapes     n samples, N joints
 // Units      SI
@@ -14,15 +14,15 @@
 #include <vector>
 
 #include "engine/simulate/arm_plant.hpp"
-#include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/loop_controller.hpp"
 
 namespace torquescope {
 
 // of one joint
 struct ReplicatedLoop {
-  LoopLaw law{};
+  LoopController controller{};
   Eigen::VectorXd reference{};    // [n]
-  Eigen::VectorXd fed_forward{};  // [n] beside the law, or empty
+  Eigen::VectorXd fed_forward{};  // [n] beside the controller, or empty
   double start_position = 0.0, start_velocity = 0.0;
   double farthest = 0.0;  // from the reference: beyond, the arm has run away
 };

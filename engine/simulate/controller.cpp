@@ -148,7 +148,7 @@ double Controller::limited(double torque) const {
   return std::clamp(torque, -options_.torque_limit, options_.torque_limit);
 }
 
-double Controller::law(ReferencePoint const& reference, double position, double velocity, double model_torque) {
+double Controller::answer(ReferencePoint const& reference, double position, double velocity, double model_torque) {
   double const error = reference.q - position;
   double const ahead = options_.feedforward ? model_torque : 0.0;
   if (options_.kind == "p_velocity") {
@@ -171,7 +171,7 @@ double Controller::command(ReferencePoint const& reference, double measured_posi
 
 double Controller::command(ReferencePoint const& reference, double measured_position, double model_torque) {
   double const velocity = measured_velocity(measured_position);
-  delayed_.push_back(law(reference, measured_position, velocity, model_torque));
+  delayed_.push_back(answer(reference, measured_position, velocity, model_torque));
   double const torque = delayed_.front();
   delayed_.pop_front();
   return torque;

@@ -63,7 +63,7 @@ class Controller {
  private:
   double measured_velocity(double position);
   double limited(double torque) const;
-  double law(ReferencePoint const& reference, double position, double velocity, double model_torque);
+  double answer(ReferencePoint const& reference, double position, double velocity, double model_torque);
 
   ControllerOptions options_;
   double period_s_;

@@ -55,8 +55,8 @@ ControllerColumns columns_of(LoopSignals const& s, int lags, int shift, Referenc
   return {lags, shift, window, true, terms, s.gear_load != nullptr};
 }
 
-// Both windows, by Schwarz's criterion: a law that looks further back than the narrow one would be taken for a shifted
-// one, and the wide one contains small shifts
+// Both windows, by Schwarz's criterion: a controller that looks further back than the narrow one would be taken for a
+// shifted one, and the wide one contains small shifts
 int best_shift(LoopSignals const& s, Terms const& terms, SampleRows const& all) {
   constexpr std::size_t enough = 8192;
   SampleRows const rows = thinned(all, enough);
@@ -78,8 +78,8 @@ int best_shift(LoopSignals const& s, Terms const& terms, SampleRows const& all) 
   return best;
 }
 
-// For rows that the fit has not seen: the narrow window, unless the wide one explains so much more that the law must
-// look that far (a feedforward at the corners of a trapezoid)
+// For rows that the fit has not seen: the narrow window, unless the wide one explains so much more that the controller
+// must look that far (a feedforward at the corners of a trapezoid)
 ControllerColumns cautious_columns(LoopSignals const& s, int shift, Terms const& terms, SampleRows const& all) {
   constexpr std::size_t enough = 8192;
   SampleRows const rows = thinned(all, enough);
@@ -91,7 +91,7 @@ ControllerColumns cautious_columns(LoopSignals const& s, int shift, Terms const&
   return gain > static_cast<double>(wide.count() - narrow.count()) * std::log(n) ? wide : narrow;
 }
 
-// none where the linear law leaves nothing but white noise
+// none where the linear controller leaves nothing but white noise
 Terms feedforward(LoopSignals const& s, int shift, SampleRows const& rows) {
   ControllerColumns const columns = columns_of(s, most_lags, shift, wide_window);
   auto const linear = regress_controller(s, columns, rows);
@@ -99,7 +99,7 @@ Terms feedforward(LoopSignals const& s, int shift, SampleRows const& rows) {
   return find_feedforward(s, columns, rows);
 }
 
-// Akaike: a lag too many costs nothing here, one too few bends the law while the noise still looks white
+// Akaike: a lag too many costs nothing here, one too few bends the controller while the noise still looks white
 ControllerRegression best_lags(LoopSignals const& s, int shift, Terms const& terms, SampleRows const& rows) {
   double const n = static_cast<double>(rows.size());
   ControllerRegression best;
@@ -118,32 +118,32 @@ ControllerRegression best_lags(LoopSignals const& s, int shift, Terms const& ter
   return best;
 }
 
-LoopLaw law_of(ControllerRegression const& fit) {
+LoopController controller_of(ControllerRegression const& fit) {
   auto const& c = fit.coefficients;
   auto const& columns = fit.columns;
-  LoopLaw law;
-  law.shift = columns.shift;
-  law.position.assign(static_cast<std::size_t>(columns.lags) + 1, 0.0);
-  law.position[0] = -c[0];
+  LoopController controller;
+  controller.shift = columns.shift;
+  controller.position.assign(static_cast<std::size_t>(columns.lags) + 1, 0.0);
+  controller.position[0] = -c[0];
   for (int lag = 0; lag < columns.lags; ++lag) {
-    law.position[static_cast<std::size_t>(lag)] += c[1 + lag];
-    law.position[static_cast<std::size_t>(lag) + 1] -= c[1 + lag];
+    controller.position[static_cast<std::size_t>(lag)] += c[1 + lag];
+    controller.position[static_cast<std::size_t>(lag) + 1] -= c[1 + lag];
   }
   Eigen::Index const differences = columns.differences();
-  law.behind = columns.window.behind;
-  law.reference.assign(static_cast<std::size_t>(differences) + 1, 0.0);
-  law.reference[static_cast<std::size_t>(columns.window.behind)] = c[0];
+  controller.behind = columns.window.behind;
+  controller.reference.assign(static_cast<std::size_t>(differences) + 1, 0.0);
+  controller.reference[static_cast<std::size_t>(columns.window.behind)] = c[0];
   for (Eigen::Index j = 0; j < differences; ++j) {
-    law.reference[static_cast<std::size_t>(j)] -= c[columns.reference() + j];
-    law.reference[static_cast<std::size_t>(j) + 1] += c[columns.reference() + j];
+    controller.reference[static_cast<std::size_t>(j)] -= c[columns.reference() + j];
+    controller.reference[static_cast<std::size_t>(j) + 1] += c[columns.reference() + j];
   }
-  law.terms = columns.terms;
-  for (std::size_t j = 0; j < law.terms.size(); ++j)
-    law.terms[j].gain = c[columns.first_term() + static_cast<Eigen::Index>(j)];
-  if (columns.has_gear_load) law.gear_load = {c[columns.gear_load()], c[columns.gear_load() + 1]};
-  law.constant = c[columns.constant()];
-  law.integral = columns.has_integral ? c[columns.integral()] : 0.0;
-  return law;
+  controller.terms = columns.terms;
+  for (std::size_t j = 0; j < controller.terms.size(); ++j)
+    controller.terms[j].gain = c[columns.first_term() + static_cast<Eigen::Index>(j)];
+  if (columns.has_gear_load) controller.gear_load = {c[columns.gear_load()], c[columns.gear_load() + 1]};
+  controller.constant = c[columns.constant()];
+  controller.integral = columns.has_integral ? c[columns.integral()] : 0.0;
+  return controller;
 }
 
 std::vector<LimitedSample> limited_samples(Eigen::VectorXd const& asked, SampleRows const& rows,
@@ -172,7 +172,7 @@ std::string in_words(ControllerFit const& fit) {
 ControllerFit fit_controller(LoopSignals const& signals) {
   TORQUESCOPE_EXPECT(signals.position.size() >= 100 && signals.reference.size() == signals.position.size() &&
                      signals.torque.size() == signals.position.size());
-  // which rows obey the law at all; the first fit chose its rows by the torque, the next ones by the law
+  // which rows obey the controller at all; the first fit chose its rows by the torque, the next ones by the controller
   SampleRows const all = usable_rows(signals.position.size());
   SampleRows rows = inner_rows(signals, all);
   int shift = best_shift(signals, {}, rows);
@@ -186,7 +186,7 @@ ControllerFit fit_controller(LoopSignals const& signals) {
     if (!limits.any()) break;
   }
 
-  // the law
+  // the controller
   terms = feedforward(signals, shift, rows);
   ControllerRegression fit = best_lags(signals, shift, terms, rows);
   ControllerFit result;
@@ -195,9 +195,9 @@ ControllerFit fit_controller(LoopSignals const& signals) {
     fit.columns.has_integral = false;
     fit = regress_controller(signals, fit.columns, rows);
   }
-  result.law = law_of(fit);
-  result.law.least = limits.least;
-  result.law.most = limits.most;
+  result.controller = controller_of(fit);
+  result.controller.least = limits.least;
+  result.controller.most = limits.most;
 
   // what it leaves
   Eigen::VectorXd const torque = picked(signals.torque, rows);
@@ -211,7 +211,7 @@ ControllerFit fit_controller(LoopSignals const& signals) {
     result.noise = white(std);
   } else {
     result.noise = fit_autoregression(fit.residual);
-    // the parameters of the law took their share of the energy
+    // the parameters of the controller took their share of the energy
     result.noise.innovation *= std / result.noise.std;
     result.noise.std = std;
   }

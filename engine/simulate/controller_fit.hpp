@@ -4,7 +4,8 @@
 // Equation   u_k = kp e_k + ki sum_(i<=k) e_i + sum_i d_i (q_(k-i) - q_(k-i-1)) + sum_j f_j (r_(k+j+1) - r_(k+j)) +
 //            terms of r and of the gear load fed forward + constant + drift t_k + noise;  e = r - q, i = 0 .. lags-1, j
 //            = -5 .. 1, r read at k + shift. Choice of shift, lags, integral and terms: METHOD.md, The controller
-// Limits     rows where the law asks for more than the torque reaches are left out; that level becomes the law's limit
+// Limits     rows where the controller asks for more than the torque reaches are left out; that level becomes the
+//            controller's limit
 // White      |autocorrelation| at 1, 2, 5, 20 samples below 3.02 / sqrt(n): 1 % false alarms. Then the remainder is the
 //            torque's noise; else replicates carry the remainder's own spectrum
 // Shapes     n samples each, evenly spaced; n >= 100; the reference moves. Units: SI, noise in the torque's unit
@@ -17,19 +18,19 @@
 #include <vector>
 
 #include "engine/simulate/autoregression.hpp"
-#include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/loop_controller.hpp"
 #include "engine/simulate/loop_signals.hpp"
 
 namespace torquescope {
 
-// at which the law asks for more than the torque reaches
+// at which the controller asks for more than the torque reaches
 struct LimitedSample {
   Eigen::Index sample = 0;
   double beyond = 0.0;  // what it asks for, counted from the limit: positive at the upper one
 };
 
 struct ControllerFit {
-  LoopLaw law;
+  LoopController controller;
   Autoregression noise;  // of the torque measurement
   bool is_white = false;
   double r_squared = 0.0;

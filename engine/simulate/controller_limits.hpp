@@ -1,9 +1,9 @@
 #pragma once
-// Where the torque of a recording stops following its law because the controller could not ask for more.
+// Where the torque of a recording stops following its controller because the controller could not ask for more.
 //
-// Law        the rows where the law asks for most, as many as one common level explains better than the law does: their
-//            mean is the limit, unless six deviations of the noise do not tell the two apart or a larger torque was
-//            reached
+// Rule       the rows where the controller asks for most, as many as one common level explains better than the
+//            controller does: their mean is the limit, unless six deviations of the noise do not tell the two apart or
+//            a larger torque was reached
 // Units      of the torque
 // Shapes     rows ascend
 // Threads    free functions
@@ -27,7 +27,7 @@ SampleRows inner_rows(LoopSignals const& signals, SampleRows const& rows);
 
 ControllerLimits find_limits(LoopSignals const& signals, ControllerRegression const& fit, SampleRows const& rows);
 
-// rows where the law asks for less than the limits: told by what it sees, not by the torque
+// rows where the controller asks for less than the limits: told by what it sees, not by the torque
 SampleRows unclipped_rows(LoopSignals const& signals, ControllerRegression const& fit, ControllerLimits const& limits,
                           SampleRows const& rows);
 

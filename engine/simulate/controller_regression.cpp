@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/base/dense_solvers.hpp"
-#include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/loop_controller.hpp"
 
 namespace torquescope {
 namespace {

@@ -25,8 +25,8 @@ struct ReferenceWindow {
   int behind = 0, ahead = 0;
 };
 // The narrow window is for looking at rows the fit has not seen: the higher differences of a smooth reference are
-// nearly dependent, and their coefficients run wild at its corners. The wide one is for the law: a velocity taken over
-// several samples, a sample of computing time, a feedforward.
+// nearly dependent, and their coefficients run wild at its corners. The wide one is for the controller: a velocity
+// taken over several samples, a sample of computing time, a feedforward.
 inline constexpr ReferenceWindow narrow_window{1, 1}, wide_window{5, 2};
 
 struct ControllerColumns {
@@ -61,7 +61,8 @@ Eigen::MatrixXd controller_regressors(LoopSignals const& signals, ControllerColu
 ControllerRegression regress_controller(LoopSignals const& signals, ControllerColumns const& columns,
                                         SampleRows const& rows);
 
-// the law's torque at every row, sensor drift included, before any limit; rows may be others than those of the fit
+// the controller's torque at every row, sensor drift included, before any limit; rows may be others than those of the
+// fit
 Eigen::VectorXd asked_torque(LoopSignals const& signals, ControllerRegression const& fit, SampleRows const& rows);
 
 // every so manieth row, at most `most` of them

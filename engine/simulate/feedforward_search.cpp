@@ -29,7 +29,7 @@ std::vector<ReferenceTerm> candidates(LoopSignals const& s) {
   return all;
 }
 
-// how much of what is left a term would take, given all that is in the law already
+// how much of what is left a term would take, given all that is in the controller already
 class Projection {
  public:
   Projection(LoopSignals const& s, ControllerColumns const& columns, SampleRows const& rows)
@@ -49,7 +49,7 @@ class Projection {
     double const whole = column.squaredNorm();
     column -= basis_ * (basis_.transpose() * column);
     double const own = column.squaredNorm();
-    constexpr double rounding = 1e-18;  // a column that the law has already
+    constexpr double rounding = 1e-18;  // a column that the controller has already
     if (own <= rounding * whole) return 0.0;
     double const along = column.dot(residual_);
     return along * along / own;

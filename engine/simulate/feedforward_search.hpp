@@ -1,5 +1,5 @@
 #pragma once
-// Which terms of the reference a controller feeds forward, beside its linear law: friction, gravity.
+// Which terms of the reference a controller feeds forward, beside its linear part: friction, gravity.
 //
 // Search     terms join one at a time: the one of a grid (smooth signs of widths over three decades; spans and leads of
 //            a few samples; sine and cosine) that takes most of the residual beside the linear columns; widths are
@@ -19,7 +19,7 @@
 
 namespace torquescope {
 
-// columns: the linear law to start from, without terms
+// columns: the linear controller to start from, without terms
 std::vector<ReferenceTerm> find_feedforward(LoopSignals const& signals, ControllerColumns columns,
                                             SampleRows const& rows);
 

@@ -4,13 +4,13 @@
 
 namespace torquescope {
 
-double JointPlant::inertia(JointState const& state) const { return laws_.smooth(state).inertia; }
+double JointPlant::inertia(JointState const& state) const { return effects_.smooth(state).inertia; }
 
 HoldRange JointPlant::hold_range(JointState const& state) const {
   JointState rest = state;
   rest.dq = 0.0;
-  double const smooth = laws_.smooth(rest).coasting;
-  return {smooth + laws_.dry(rest, -1.0), smooth + laws_.dry(rest, 1.0)};
+  double const smooth = effects_.smooth(rest).coasting;
+  return {smooth + effects_.dry(rest, -1.0), smooth + effects_.dry(rest, 1.0)};
 }
 
 double JointPlant::direction_of_motion(JointState const& state, double u) const {
@@ -23,8 +23,8 @@ double JointPlant::direction_of_motion(JointState const& state, double u) const 
 }
 
 double JointPlant::sliding_acceleration(JointState const& state, double u, double direction) const {
-  JointLaws::SmoothPart const smooth = laws_.smooth(state);
-  return (u - smooth.coasting - laws_.dry(state, direction)) / smooth.inertia;
+  JointEffects::SmoothPart const smooth = effects_.smooth(state);
+  return (u - smooth.coasting - effects_.dry(state, direction)) / smooth.inertia;
 }
 
 double JointPlant::acceleration(JointState const& state, double u) const {
@@ -32,7 +32,7 @@ double JointPlant::acceleration(JointState const& state, double u) const {
   return direction == 0.0 ? 0.0 : sliding_acceleration(state, u, direction);
 }
 
-double JointPlant::inverse_dynamics(JointState const& state) const { return laws_.torque(state); }
+double JointPlant::inverse_dynamics(JointState const& state) const { return effects_.torque(state); }
 
 JointState JointPlant::slide(JointState const& state, double u, double direction, double step_s) const {
   double const half_s = 0.5 * step_s;

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "engine/simulate/joint_laws.hpp"
+#include "engine/simulate/joint_effects.hpp"
 
 namespace torquescope {
 
@@ -21,7 +21,7 @@ struct HoldRange {
 
 class JointPlant {
  public:
-  explicit JointPlant(std::vector<PlantTerm> const& terms) : laws_(terms) {}
+  explicit JointPlant(std::vector<PlantTerm> const& terms) : effects_(terms) {}
 
   double inertia(JointState const& state) const;
   HoldRange hold_range(JointState const& state) const;           // as if at rest at this position and time
@@ -39,7 +39,7 @@ class JointPlant {
   double sliding_acceleration(JointState const& state, double u, double direction) const;
   JointState slide(JointState const& state, double u, double direction, double step_s) const;
 
-  JointLaws laws_;
+  JointEffects effects_;
 };
 
 }  // namespace torquescope

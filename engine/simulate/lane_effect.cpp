@@ -34,18 +34,19 @@ constexpr LaneTorques filled(double value) {
 constexpr LaneTorques none = filled(0.0), one = filled(1.0);
 
 // asked of the effect itself, so that no table can disagree; what begins at an instant may do so then
-bool asks_for_acceleration(InstantEffect const& law, std::vector<double> const& parameters, JointScales const& scales) {
-  if (law.is_event()) return true;
+bool asks_for_acceleration(InstantEffect const& effect, std::vector<double> const& parameters,
+                           JointScales const& scales) {
+  if (effect.is_event()) return true;
   JointState const coasts{0.0, 0.4, -0.7, 0.0, 1.2, -0.8};
   JointState speeds_up = coasts;
   speeds_up.ddq = 1.0;
-  return law.torque(speeds_up, parameters, scales) != law.torque(coasts, parameters, scales);
+  return effect.torque(speeds_up, parameters, scales) != effect.torque(coasts, parameters, scales);
 }
 
 // its code names all that it reads; what depends on the time or the past has none
-bool is_of_speed_alone(InstantEffect const& law) {
-  auto const reads = [&](char const* word) { return has_word(law.code(), word); };
-  return !law.code().empty() && !reads("q") && !reads("ddq") && !reads("load");
+bool is_of_speed_alone(InstantEffect const& effect) {
+  auto const reads = [&](char const* word) { return has_word(effect.code(), word); };
+  return !effect.code().empty() && !reads("q") && !reads("ddq") && !reads("load");
 }
 
 class CatalogueEffect final : public LaneEffect {
@@ -64,10 +65,10 @@ class CatalogueEffect final : public LaneEffect {
         gear_load_rate_hz_(baseline.rate_hz),
         parameters_(parameters),
         scales_(scales) {
-    if (acts_on_ == ActsOn::joint) law_ = dynamic_cast<InstantEffect const*>(&effect);
-    if (law_ != nullptr) {
-      asks_for_acceleration_ = asks_for_acceleration(*law_, parameters, scales);
-      if (is_of_speed_alone(*law_)) rest_ = Rest{at_rest(1.0), at_rest(-1.0)};
+    if (acts_on_ == ActsOn::joint) effect_ = dynamic_cast<InstantEffect const*>(&effect);
+    if (effect_ != nullptr) {
+      asks_for_acceleration_ = asks_for_acceleration(*effect_, parameters, scales);
+      if (is_of_speed_alone(*effect_)) rest_ = Rest{at_rest(1.0), at_rest(-1.0)};
       return;
     }
     if (auto const* remembering = dynamic_cast<MemoryEffect const*>(&effect)) {
@@ -166,8 +167,8 @@ class CatalogueEffect final : public LaneEffect {
   LaneTorques torques(JointStates const& at) const {
     LaneTorques found{};
     std::span<double> const used(found.data(), lanes_);
-    if (law_ != nullptr)
-      law_->torques(at, parameters_, scales_, used);
+    if (effect_ != nullptr)
+      effect_->torques(at, parameters_, scales_, used);
     else if (memory_)
       memory_->torques(at, linear_, used);
     else
@@ -193,7 +194,7 @@ class CatalogueEffect final : public LaneEffect {
   }
 
   double at_rest(double direction) const {
-    return law_->torque(JointState{.dq = direction * slowest}, parameters_, scales_);
+    return effect_->torque(JointState{.dq = direction * slowest}, parameters_, scales_);
   }
 
   // most often all lanes move one way: what the other branch begins with, of effects of the speed alone
@@ -211,7 +212,7 @@ class CatalogueEffect final : public LaneEffect {
   std::vector<double> parameters_;
   JointScales scales_;
   // all lanes at once: an effect of the instant in the joint, or what each replicate remembers
-  InstantEffect const* law_ = nullptr;
+  InstantEffect const* effect_ = nullptr;
   std::optional<Rest> rest_{};
   std::unique_ptr<EffectMemory> memory_;
   std::span<double const> linear_{};                    // of parameters_

@@ -1,5 +1,6 @@
 #pragma once
-// What is random in a group of replicates, lane by lane: noises, their levels, the friction random walk, sticking laws.
+// What is random in a group of replicates, lane by lane: noises, their levels, the friction random walk, sticking
+// effects.
 //
 // Random     addressed by (seed, recording, set, stream, replicate, draw): one lane's numbers do not depend on its
 //            neighbours
@@ -82,7 +83,8 @@ class LaneFriction {
   double level_[replicate_lanes];
 };
 
-// a law for every lane, one draw of the creep and one of the length; bent as of a joint that moves at start_velocity
+// an effect for every lane, one draw of the creep and one of the length; bent as of a joint that moves at
+// start_velocity
 void draw_sticking(ReplicateAddress const& address, std::uint32_t group, StickingRange const& range,
                    double start_velocity, LaneSticking& sticking);
 

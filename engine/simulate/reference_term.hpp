@@ -4,8 +4,8 @@
 //
 // Equation   smooth_sign  tanh(v / width),  v = (r_(k+ahead) - r_(k+ahead-span)) / span;   sine, cosine  of r_(k+ahead)
 // Units      r rad or m; width the same, per sample; the term itself has none, its gain is N m or N
-// Ends       beyond them the reference goes on as its odd reflection: a ramp stays a ramp, or a law would see it stop
-//            dead
+// Ends       beyond them the reference goes on as its odd reflection: a ramp stays a ramp, or a controller would see it
+//            stop dead
 // Threads    plain records
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ struct ReferenceTerm {
   int ahead = 0;
   int span = 1;        // of a smooth sign, in samples
   double width = 1.0;  // of a smooth sign
-  double gain = 0.0;   // in a law
+  double gain = 0.0;   // in a controller
 
   double operator()(ReferenceSignal const& reference, Eigen::Index k) const;
 };

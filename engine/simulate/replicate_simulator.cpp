@@ -40,7 +40,7 @@ void draw_phases(ReplicateAddress const& address, std::uint32_t group, Replicate
 }
 
 // The recording's first position is what the encoder read: a joint whose readings are off begins where it would read
-// that. Otherwise the law sees the whole error arrive in one tick
+// that. Otherwise the controller sees the whole error arrive in one tick
 void read_as_recorded(ReplicateJoint const& joint, LaneInstant const& start, double* position) {
   alignas(64) double read[replicate_lanes];
   std::copy_n(position, replicate_lanes, read);
@@ -54,8 +54,8 @@ void read_encoder(double step, double const* phase, double* position) {
     position[lane] = step * std::floor((position[lane] + phase[lane]) / step + 0.5) - phase[lane];
 }
 
-// The longest step between two changes of the torque. A law with a memory, or one of sticking, is as quick as the
-// caller knows. The joint alone decays at viscous / inertia and swings at sqrt(gravity / inertia): at a fiftieth of
+// The longest step between two changes of the torque. An effect with a memory, or sticking, is as quick as
+// the caller knows. The joint alone decays at viscous / inertia and swings at sqrt(gravity / inertia): at a fiftieth of
 // that time what the second order leaves out, a sixth of the square, is 7e-5
 double longest_step_s(ReplicateJoint const& joint, StickingRange const& sticking, double step_s, double tick_s) {
   auto const has_memory = [](LaneEffectMaker const& make) { return make()->follows_steps(); };
@@ -68,9 +68,9 @@ double longest_step_s(ReplicateJoint const& joint, StickingRange const& sticking
   return std::clamp(fiftieth / std::max({decay, swing, fiftieth / tick_s}), std::min(step_s, tick_s), tick_s);
 }
 
-// Steps for which a law without memory is held. Beside it stands a viscous torque that is not: where both are large and
-// cancel, as fits of a power of the speed near 1 have them, that moves the acceleration by (viscous held / inertia)^2 /
-// 12, at a tenth by a thousandth. A tick, if it is short enough
+// Steps for which an effect without memory is held. Beside it stands a viscous torque that is not: where both are
+// large and cancel, as fits of a power of the speed near 1 have them, that moves the acceleration by (viscous held /
+// inertia)^2 / 12, at a tenth by a thousandth. A tick, if it is short enough
 std::size_t steps_held(LaneJoint const& joint, double step_s, std::size_t steps_per_tick) {
   constexpr double tenth = 0.1;
   double const most = tenth * joint.inertia / (std::abs(joint.viscous) * step_s);
@@ -82,16 +82,16 @@ std::size_t steps_held(LaneJoint const& joint, double step_s, std::size_t steps_
 ReplicateSimulator::ReplicateSimulator(ReplicateJoint joint, ReplicateLoop loop, ReplicateTrack track, double step_s)
     : joint_(std::move(joint)), loop_(std::move(loop)), track_(std::move(track)), asked_step_s_(step_s) {
   Eigen::Index const n = track_.reference.size();
-  TORQUESCOPE_EXPECT(n > 0 && track_.rate_hz > 0.0 && step_s > 0.0 && !loop_.law.position.empty());
+  TORQUESCOPE_EXPECT(n > 0 && track_.rate_hz > 0.0 && step_s > 0.0 && !loop_.controller.position.empty());
   double const longest_s = longest_step_s(joint_, loop_.sticking, step_s, 1.0 / track_.rate_hz);
   steps_per_tick_ = static_cast<std::size_t>(std::ceil(1.0 / (track_.rate_hz * longest_s) * (1.0 - 1e-9)));
   step_s_ = 1.0 / (track_.rate_hz * static_cast<double>(steps_per_tick_));
 
   ReferenceSignal const reference(track_.reference);
-  open_ = open_part(loop_.law, track_.reference, track_.gear_load);
+  open_ = open_part(loop_.controller, track_.reference, track_.gear_load);
   if (track_.fed_forward.size() > 0) open_ += track_.fed_forward;
   wanted_.resize(n);
-  for (Eigen::Index k = 0; k < n; ++k) wanted_[k] = reference(k + loop_.law.shift);
+  for (Eigen::Index k = 0; k < n; ++k) wanted_[k] = reference(k + loop_.controller.shift);
 }
 
 void ReplicateSimulator::simulate(ReplicateAddress const& address, std::uint32_t group, ReplicateGroup& out) const {
@@ -106,7 +106,7 @@ void ReplicateSimulator::simulate(ReplicateAddress const& address, std::uint32_t
   double encoder_phase[replicate_lanes];
   draw_phases(address, group, loop_, encoder_phase);
   LaneFriction friction(address, group, loop_, 1.0 / track_.rate_hz);
-  LaneController controller(loop_.law, track_.start_position, track_.start_velocity, track_.rate_hz);
+  LaneController controller(loop_.controller, track_.start_position, track_.start_velocity, track_.rate_hz);
   for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
     out.position[lane].resize(samples());
     out.torque[lane].resize(samples());

@@ -1,8 +1,8 @@
 #pragma once
 // Replicates of a recording: the fitted joint in the recording's own loop, with its reference, encoder and noise.
 //
-// Tick       the encoder reads position + position noise; the law answers and holds its torque until the next tick;
-//            torque noise is added to the log, disturbance to the joint; the dry friction level may walk
+// Tick       the encoder reads position + position noise; the controller answers and holds its torque until the next
+//            tick; torque noise is added to the log, disturbance to the joint; the dry friction level may walk
 // Start      at the recording's first velocity, anywhere within the encoder step of its first position
 // Encoder    where its steps lie is drawn for every replicate: else all share the recording's own rounding
 // Groups     replicate_lanes replicates are simulated side by side; replicate i is lane i % replicate_lanes of group i
@@ -19,7 +19,7 @@
 #include <limits>
 
 #include "engine/simulate/autoregression.hpp"
-#include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/loop_controller.hpp"
 #include "engine/simulate/replicate_joint.hpp"
 #include "engine/simulate/sticking_range.hpp"
 
@@ -27,7 +27,7 @@ namespace torquescope {
 
 // the loop round the joint; noise is whatever the recording's is
 struct ReplicateLoop {
-  LoopLaw law{};
+  LoopController controller{};
   double encoder_step = 0.0;           // rad or m; 0: exact
   Autoregression torque_noise{};       // of the measurement
   Autoregression slow_torque_noise{};  // the same, beside it
@@ -41,8 +41,8 @@ struct ReplicateLoop {
   // replicate draws a size of its own, as above
   double friction_wander = 0.0;
   double friction_wander_variance_error = 0.0;
-  StickingRange sticking{};  // of dry friction: every replicate draws a law of its own; none: it holds at once
-  bool sees_motion = false;  // the law answers the position itself, before the encoder's steps
+  StickingRange sticking{};  // of dry friction: every replicate draws its own; none: it holds at once
+  bool sees_motion = false;  // the controller answers the position itself, before the encoder's steps
 };
 
 // what the recording prescribes
@@ -52,10 +52,10 @@ struct ReplicateTrack {
   double start_position = 0.0, start_velocity = 0.0;
   // a replicate that asks for more has run away
   double largest_torque = std::numeric_limits<double>::infinity();
-  // [n] what the law gives beside the joint's own torque, held, to an arm whose other joints move; empty: nothing. The
-  // replicate's torque is without it, as that of a recording is
+  // [n] what the controller gives beside the joint's own torque, held, to an arm whose other joints move; empty:
+  // nothing. The replicate's torque is without it, as that of a recording is
   Eigen::VectorXd gear_load{};
-  Eigen::VectorXd fed_forward{};  // [n] torque that the law adds to its answer; empty: none
+  Eigen::VectorXd fed_forward{};  // [n] torque that the controller adds to its answer; empty: none
 };
 
 struct ReplicateAddress {
@@ -72,7 +72,8 @@ struct ReplicateGroup {
 
 class ReplicateSimulator {
  public:
-  // step_s: of laws with a memory; where nothing asks for it the steps are longer, a whole number of them per tick
+  // step_s: of effects with a memory; where nothing asks for it the steps are longer, a whole number of them per
+  // tick
   ReplicateSimulator(ReplicateJoint joint, ReplicateLoop loop, ReplicateTrack track, double step_s);
 
   Eigen::Index samples() const { return track_.reference.size(); }
@@ -88,7 +89,7 @@ class ReplicateSimulator {
   ReplicateTrack track_;
   double asked_step_s_ = 0.0, step_s_ = 0.0;
   std::size_t steps_per_tick_ = 0;
-  Eigen::VectorXd open_;    // the law's part that no replicate changes
+  Eigen::VectorXd open_;    // the controller's part that no replicate changes
   Eigen::VectorXd wanted_;  // reference seen by the summed error
 };
 

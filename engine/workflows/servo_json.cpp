@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/diagnose/decision_account.hpp"
-#include "engine/simulate/rollout/drive_law.hpp"
+#include "engine/simulate/rollout/drive_effect.hpp"
 #include "engine/workflows/results/json_values.hpp"
 #include "engine/workflows/results/loop_json.hpp"
 #include "engine/workflows/servo_words.hpp"
@@ -36,13 +36,13 @@ Json error_json(ServoError const& error) {
 
 Json kept_json(KeptMove const& move) {
   bool const is_drive = move.subject.is_of_command();
-  DriveLaw const* const law = is_drive ? &drive_law_of(move.subject.key) : nullptr;
+  DriveEffect const* const effect = is_drive ? &drive_effect_of(move.subject.key) : nullptr;
   Json rivals = Json::array();
   for (auto const& rival : move.rivals) rivals.push_back(name_of(rival));
   return {{"name", name_of(move.subject)},
-          {"title", is_drive ? law->title : move.subject.effect->title()},
-          {"equation", is_drive ? law->equation : move.subject.effect->equation()},
-          {"not_told_from", is_drive ? law->confused : ""},
+          {"title", is_drive ? effect->title : move.subject.effect->title()},
+          {"equation", is_drive ? effect->equation : move.subject.effect->equation()},
+          {"not_told_from", is_drive ? effect->confused : ""},
           {"gain", json_number(move.gain)},
           {"p", json_number(move.p)},
           {"parameters", numbers_json(move.numbers)},

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/experiment/recording_set.hpp"
-#include "engine/infer/all_rows/servo_spread.hpp"
+#include "engine/infer/decision/servo_spread.hpp"
 #include "engine/simulate/rollout/replay.hpp"
 
 namespace torquescope {
@@ -34,7 +34,7 @@ struct ServoTable {
 enum class ServoNote {
   one_load,        // nothing tells friction of the load from dry friction, but over the angle
   no_scale,        // no known load: torques are in units of the command
-  no_validation,   // nothing says how the laws predict
+  no_validation,   // nothing says how the effects predict
   no_gain,         // the command is the error itself
   always_on,       // viscous friction and back-EMF are one number
   few_recordings,  // one recording alone

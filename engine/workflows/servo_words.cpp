@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/quantity_text.hpp"
-#include "engine/simulate/rollout/drive_law.hpp"
+#include "engine/simulate/rollout/drive_effect.hpp"
 
 namespace torquescope {
 
@@ -64,7 +64,7 @@ namespace {
 
 std::string named(KeptMove const& move) {
   std::string title =
-      move.subject.is_of_command() ? drive_law_of(move.subject.key).title : move.subject.effect->title();
+      move.subject.is_of_command() ? drive_effect_of(move.subject.key).title : move.subject.effect->title();
   // within a sentence; Stribeck was a man
   if (!title.starts_with("Stribeck")) title.front() = static_cast<char>(std::tolower(title.front()));
   if (move.numbers.empty()) return title;

@@ -109,7 +109,7 @@ double mean_error(RolloutModel const& model, std::vector<RolloutTrack> const& tr
   return sum / samples;
 }
 
-// the same laws, fitted without the training recordings of each value in turn
+// the same effects, fitted without the training recordings of each value in turn
 ServoTable without_each(std::string const& quantity, ServoJob const& job, ServoQuestion const& question,
                         ServoDecision const& decision) {
   ServoTable table{quantity, {}};
@@ -121,8 +121,9 @@ ServoTable without_each(std::string const& quantity, ServoJob const& job, ServoQ
       (value_of(training[k], quantity) == value ? left_out : kept).push_back(job.training[k]);
     if (kept.empty() || left_out.empty()) continue;
     std::vector<RolloutTrack> const none;
-    ServoQuestion const asked{question.regressor, question.loop, question.command, kept, none, {}, question.most_laws,
-                              question.numbers,   question.seed, question.threads};
+    ServoQuestion const asked{
+        question.regressor, question.loop, question.command, kept, none, {}, question.most_effects,
+        question.numbers,   question.seed, question.threads};
     ServoRow row{value, {}, {}};
     row.train.recordings = static_cast<std::int64_t>(left_out.size());
     for (auto const& track : left_out) row.train.samples += track.samples();

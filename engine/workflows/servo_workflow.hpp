@@ -1,5 +1,5 @@
 #pragma once
-// `torquescope diagnose` of a job with [[recordings]]: which laws of drive and gear all of them need.
+// `torquescope diagnose` of a job with [[recordings]]: which effects of drive and gear all of them need.
 //
 // Errors     those of the job and its files; 75 when it is stopped; 73 where another result stands
 // Threads    spreads fits over request.threads; call it from one thread

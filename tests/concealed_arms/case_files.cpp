@@ -69,7 +69,7 @@ drive_inertia = true
 
 [diagnose]
 effects = "all"
-replicates = )";
+twins = )";
 
 // a name needs p below 0.05 / joints, and n replicates show no p below 1 / (n + 1)
 constexpr int replicates_a_joint = 24;

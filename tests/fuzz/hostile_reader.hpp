@@ -1,7 +1,7 @@
 #pragma once
 // What is thrown at each reader of files that nobody vouches for: one object per format, a file of its name each.
 //
-// Law        `read` returns or throws an Error, whatever the bytes are; a crash, a hang, any other exception is a
+// Effect        `read` returns or throws an Error, whatever the bytes are; a crash, a hang, any other exception is a
 //            finding
 // Used by    short_pass.cpp (every build; scripts/test) and lib_fuzzer.cpp (preset fuzz; scripts/test --full)
 // Threads    one

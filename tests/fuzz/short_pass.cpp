@@ -4,7 +4,7 @@
 // Proves     each is read or refused with an Error, within seconds. What a foreign library parses is read in a child,
 //            as the program does, and the child may end in any way; of our own parsers a batch shares a child, which
 //            must not
-// Exit       0, or 1 with the input that broke the law, kept as finding.READER in the working folder. What broke a
+// Exit       0, or 1 with the input that broke the effect, kept as finding.READER in the working folder. What broke a
 //            library off is kept as broke_off.READER.0, .1, ...: the program has to refuse it
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 """Words of our own that no user should have to learn: not in what the program and its pages say, nor in the documents.
 
-    plain_words.py ROOT        texts of the C++ and Python sources, templates of pages, and documents for users
+    plain_words.py ROOT        texts of the C++ and Python sources, templates of pages, and documents for users; names
+                               and comments of the engine
 
 A text is a string with a space in it: keys of JSON, HDF5 and jobs are single words, and scripts of users hold them.
 """
@@ -25,9 +26,12 @@ KEYS = re.compile(r"list laws|effects, laws|"
 # of effects: their own sentences may speak of a law of nature by its name
 NAMED_LAWS = re.compile(r"(?:Ohm|Coulomb|Stribeck|Hooke|Newton)'s law|[Pp]ower law")
 DOCUMENTS = ("README.md", "CHANGELOG.md", "jobs/README.md", "engine/diagnose/METHOD.md",
-             "engine/infer/all_rows/THEORY.md", "engine/store/RESULT_FORMAT.md",
+             "engine/infer/decision/THEORY.md", "engine/store/RESULT_FORMAT.md",
              "engine/data/health/README.md", "engine/effects/README.md", "scripts/report/torquescope/README.md",
              "bench/README.md")
+# names and comments of the engine: replicate, validation, and effect or controller
+OF_CODE = re.compile(r"\w*(?:[Tt]win|[Uu]nseen|(?<![a-z])[Ll]aws?(?![a-z]))\w*")
+NAMES_KEPT = re.compile(r"\w*(?:velocity|power)_law\w*|[Ss]et-valued law")  # of effects, and a term of mechanics
 C_TEXT = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 CODE = re.compile(r"```.*?```|`[^`\n]*`|\]\([^)]*\)|^    .*$", re.DOTALL | re.MULTILINE)
 
@@ -36,6 +40,13 @@ def faults(text):
     """[(word, what to write instead)]."""
     plain = NAMED_LAWS.sub("", KEYS.sub("", text))
     return [(found[0], instead) for pattern, instead in INSTEAD.items() for found in re.finditer(pattern, plain)]
+
+
+def words_in_code(source):
+    """[(line, word)] of names and comments, without what stands between quotes."""
+    for number, line in enumerate(source.split("\n"), 1):
+        plain = NAMES_KEPT.sub("", NAMED_LAWS.sub("", C_TEXT.sub("", line)))
+        yield from ((number, word) for word in OF_CODE.findall(plain))
 
 
 def texts_of_cpp(source):
@@ -84,8 +95,13 @@ def main(root):
     # the check sees what it is for
     assert faults("what clean twins leave") and faults("less than none")
     assert not faults("write twins = 200") and not faults("a power law of the speed")
+    assert list(words_in_code("LawQuestion one;  // of a twin")) == [(1, "LawQuestion"), (1, "twin")]
+    assert not list(words_in_code('write("twins", EffectFamily::velocity_law);  // power law: flawless'))
     found = [f"{name}:{line}: \"{word}\": {instead}" for name, line, text in places(root)
              for word, instead in faults(text)]
+    found += [f"{path.relative_to(root)}:{line}: \"{word}\": replicate, validation, effect or controller"
+              for path in sorted((root / "engine").rglob("*.[ch]pp"))
+              for line, word in words_in_code(path.read_text(encoding="utf-8"))]
     print("\n".join(found) or "no words of our own in what users read")
     return bool(found)
 

@@ -23,7 +23,7 @@ EXAMPLES = {"effects/effects/eddy_brake.cpp", "optim/optimisers/random_search.cp
 
 DOCUMENT = re.compile(r"(?<![\w*{}$])(?:\.{1,2}/|[\w.-]+/)*[\w-]+\.md\b")
 SECTION = re.compile(r"\b(METHOD|THEORY)\.md, ([A-Z][\w ,'-]*)")
-THEORY = "engine/infer/all_rows/THEORY.md"  # what is longer than a comment about a decision
+THEORY = "engine/infer/decision/THEORY.md"  # what is longer than a comment about a decision
 PRIVATE = re.compile(r"\b(?:LESSONS|PHYSICS|DESIGN|UX|FADE|STYLE|EVIDENCE)(?:\.md)? (?:items?|sections?) "
                      r"|\bour own prototype\b")
 FAILS = re.compile(r"^\s*(?://|#) fails:", re.MULTILINE)

@@ -1,6 +1,7 @@
 #pragma once
-// Eigen's decompositions as tests use them to check the engine: those of engine/base/dense_solvers.hpp, whose own laws
-// are in tests/unit/base/dense_solvers.cpp. Each file that names one of Eigen's itself takes four seconds longer.
+// Eigen's decompositions as tests use them to check the engine: those of engine/base/dense_solvers.hpp, whose own
+// effects are in tests/unit/base/dense_solvers.cpp. Each file that names one of Eigen's itself takes four seconds
+// longer.
 
 #include <Eigen/Core>
 

@@ -223,7 +223,7 @@ JointDiagnosis invented_joint() {
   joint.candidates = invented_candidates();
   joint.effects = {invented_stribeck(), invented_cogging()};
   joint.augmented = invented_parameters(0.64, 0.44);
-  joint.law_levels = {1.05, -0.95, 0.0905};
+  joint.effect_levels = {1.05, -0.95, 0.0905};
   for (auto const& effect : joint.effects)
     joint.augmented.insert(joint.augmented.end(), effect.parameters.begin(), effect.parameters.end());
   joint.augmented_train_relerr = 0.0611;

@@ -162,8 +162,8 @@ std::string arm_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
   for (JointDiagnosis const* joint : by_weight(diagnosis.joints)) {
     text += lines_text(mark_of(*joint, joint->verdict, utf8, ink, which_joint(*joint)),
                        verdict_lines(diagnosis, *joint, joint->verdict));
-    for (auto const& law : job_lines(*joint))
-      text += line_text("    ", fmt::format("hold it in run: {}", fmt::join(law, "   ")));
+    for (auto const& effect : job_lines(*joint))
+      text += line_text("    ", fmt::format("hold it in run: {}", fmt::join(effect, "   ")));
   }
   return text;
 }

@@ -1,10 +1,10 @@
 #pragma once
-// When a law of known size acts in a recording: between the instants of its own at which it explains most there.
+// When an effect of known size acts in a recording: between the instants of its own at which it explains most there.
 //
 // Equation   largest sum of |left|^2 - |left - torque|^2 over rows that follow each other, cut between instants
-// Null       of replicates the same with instants of their own: what the law leaves there, each stretch with a random
-//            sign. The freedom of two instants is theirs as well (whole_arm_scan.hpp)
-// Shapes     n rows of one recording: `left` without the law, `torque` of the law where it acts
+// Null       of replicates the same with instants of their own: what the effect leaves there, each stretch with a
+//            random sign. The freedom of two instants is theirs as well (whole_arm_scan.hpp)
+// Shapes     n rows of one recording: `left` without the effect, `torque` of the effect where it acts
 // Threads    free function; same bits always
 
 #include <optional>

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/base/dense_solvers.hpp"
-#include "engine/diagnose/arms/arm_laws.hpp"
+#include "engine/diagnose/arms/arm_effects.hpp"
 #include "engine/effects/given_effect.hpp"
 #include "engine/fit/statistics/scaled_solution.hpp"
 #include "engine/infer/pipeline/held_torque.hpp"
@@ -71,7 +71,7 @@ std::vector<Recording> joints_with_rigid_rows(ArmModel const& model, RecordedArm
                                               ArmFilter const& filter) {
   auto const motion = motion_of(recording, filter);
   auto const rows = model.rows(motion, recording.payload);
-  auto laws = arm_law_signals(model, motion);
+  auto effects = arm_effect_signals(model, motion);
   std::vector<Recording> joints = recording.joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (recording.payload) {
@@ -79,8 +79,8 @@ std::vector<Recording> joints_with_rigid_rows(ArmModel const& model, RecordedArm
       joints[j].torque -= torque_to_hold(known);
       joints[j].gear_load = joints[j].gear_load.size() > 0 ? (joints[j].gear_load + known).eval() : known;
     }
-    laws[j].laws.push_back({rigid_rows_name, rows[j](Eigen::all, rigid_places(model, j))});
-    joints[j].given = std::make_shared<GivenSignals const>(std::move(laws[j]));
+    effects[j].effects.push_back({rigid_rows_name, rows[j](Eigen::all, rigid_places(model, j))});
+    joints[j].given = std::make_shared<GivenSignals const>(std::move(effects[j]));
   }
   return joints;
 }
@@ -116,7 +116,7 @@ Eigen::Index add_rigid_arm(std::vector<Recording>& recordings, std::size_t train
     // of one N m in the rms
     for (std::size_t k = 0; k < kept.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) /= sizes[kept[k]];
     GivenSignals given = *recordings[i].given;
-    given.laws.push_back({rigid_arm_name, std::move(columns)});
+    given.effects.push_back({rigid_arm_name, std::move(columns)});
     recordings[i].given = std::make_shared<GivenSignals const>(std::move(given));
   }
   return std::ssize(kept);

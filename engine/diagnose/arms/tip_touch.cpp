@@ -31,11 +31,11 @@ struct TouchRows {
   double time(Index instant) const { return begin_s + static_cast<double>(instant) / rate_hz; }
 };
 
-// Friction that the model lacks looks like a touch where two joints are slow, or carry much, together: what any law of
-// low speeds or of the load explains of each joint's residual is taken away
+// Friction that the model lacks looks like a touch where two joints are slow, or carry much, together: what any effect
+// of low speeds or of the load explains of each joint's residual is taken away
 VectorXd beside_slow_friction(RegressionData const& rows, VectorXd left, VectorXd const& weights,
                               TipTouchNumbers const& numbers) {
-  auto const laws = std::ssize(numbers.slow);
+  auto const effects = std::ssize(numbers.slow);
   for (std::size_t joint = 0; joint < rows.arm->joints(); ++joint) {
     std::vector<Index> own;
     double greatest = 0.0;
@@ -44,11 +44,11 @@ VectorXd beside_slow_friction(RegressionData const& rows, VectorXd left, VectorX
         own.push_back(i);
         greatest = std::max(greatest, std::abs(rows.dq[i]));
       }
-    if (std::ssize(own) <= laws + 1 || greatest <= 0.0) continue;
+    if (std::ssize(own) <= effects + 1 || greatest <= 0.0) continue;
     VectorXd const speed = rows.dq(own), residual = left(own), weight = weights(own);
-    MatrixXd columns(speed.size(), laws + 1);
-    columns.col(laws) = (rows.tau(own) - residual).array().abs() * speed.array().sign();
-    for (Index k = 0; k < laws; ++k)
+    MatrixXd columns(speed.size(), effects + 1);
+    columns.col(effects) = (rows.tau(own) - residual).array().abs() * speed.array().sign();
+    for (Index k = 0; k < effects; ++k)
       columns.col(k) =
           speed.array().sign() * (-speed.array().abs() / (numbers.slow[static_cast<std::size_t>(k)] * greatest)).exp();
     MatrixXd const weighted = weight.asDiagonal() * columns;

@@ -10,12 +10,12 @@
 namespace torquescope {
 namespace {
 
-// of a law over some rows: with itself, with the basis, with the residual
-struct LawProducts {
+// of an effect over some rows: with itself, with the basis, with the residual
+struct EffectProducts {
   Eigen::MatrixXd own{}, cross{};  // r x r, r x k
   Eigen::VectorXd right{};         // r
 
-  LawProducts operator-(LawProducts const& other) const {
+  EffectProducts operator-(EffectProducts const& other) const {
     return {own - other.own, cross - other.cross, right - other.right};
   }
   Eigen::MatrixXd root() const { return inverse_root(own - cross * cross.transpose(), own.diagonal()); }
@@ -25,18 +25,18 @@ struct LawProducts {
 // sums from the first row of a recording to the first row of each of its instants, and to its end
 class SumsToInstants {
  public:
-  SumsToInstants(WholeArmRows const& rows, LawPlace const& law, RowBlock const& of, Eigen::MatrixXd const& basis,
+  SumsToInstants(WholeArmRows const& rows, EffectPlace const& effect, RowBlock const& of, Eigen::MatrixXd const& basis,
                  Eigen::VectorXd const& residual) {
     auto const instant = [&](Eigen::Index i) { return rows.rows[static_cast<std::size_t>(i)].instant; };
-    LawProducts sum{Eigen::MatrixXd::Zero(law.count, law.count), Eigen::MatrixXd::Zero(law.count, basis.cols()),
-                    Eigen::VectorXd::Zero(law.count)};
+    EffectProducts sum{Eigen::MatrixXd::Zero(effect.count, effect.count),
+                       Eigen::MatrixXd::Zero(effect.count, basis.cols()), Eigen::VectorXd::Zero(effect.count)};
     for (Eigen::Index i = of.from; i <= of.to; ++i) {
       if (i == of.from || i == of.to || instant(i) != instant(i - 1)) {
         first_rows_.push_back(i);
         sums_.push_back(sum);
       }
       if (i == of.to) break;
-      Eigen::VectorXd const at = rows.laws.row(i).segment(law.first, law.count);
+      Eigen::VectorXd const at = rows.effects.row(i).segment(effect.first, effect.count);
       sum.own += at * at.transpose();
       sum.cross += at * basis.row(i);
       sum.right += residual[i] * at;
@@ -52,7 +52,7 @@ class SumsToInstants {
 
  private:
   std::vector<Eigen::Index> first_rows_{};
-  std::vector<LawProducts> sums_{};
+  std::vector<EffectProducts> sums_{};
 };
 
 // the best of the places low .. high
@@ -79,12 +79,12 @@ RowBlock rows_of_recording(WholeArmRows const& rows, std::size_t recording) {
 }
 
 // the rows in which it acts, to the instant
-RowBlock refined(WholeArmRows const& rows, LawPlace const& law, StretchWindow const& found,
+RowBlock refined(WholeArmRows const& rows, EffectPlace const& effect, StretchWindow const& found,
                  Eigen::MatrixXd const& basis, Eigen::VectorXd const& residual) {
   auto const& stretches = rows.stretches;
   std::size_t const recording = stretches[found.from].recording;
   RowBlock const whole = rows_of_recording(rows, recording);
-  SumsToInstants const sums(rows, law, whole, basis, residual);
+  SumsToInstants const sums(rows, effect, whole, basis, residual);
   auto const is_own = [&](std::size_t s) { return s < stretches.size() && stretches[s].recording == recording; };
   auto const start_of = [&](std::size_t s) { return sums.place_of(is_own(s) ? stretches[s].rows.from : whole.to); };
   std::size_t const before = found.from > 0 && is_own(found.from - 1) ? found.from - 1 : found.from;
@@ -119,13 +119,13 @@ Eigen::MatrixXd cluster_sums(WholeArmRows const& rows, Eigen::MatrixXd const& sc
 
 }  // namespace
 
-WholeArmFit fit_whole_arm_law(WholeArmRows const& rows, ScannedLaw const& found, Eigen::MatrixXd const& basis,
-                              Eigen::VectorXd const& residual) {
-  LawPlace const& law = rows.places[found.law];
+WholeArmFit fit_whole_arm_effect(WholeArmRows const& rows, ScannedEffect const& found, Eigen::MatrixXd const& basis,
+                                 Eigen::VectorXd const& residual) {
+  EffectPlace const& effect = rows.places[found.effect];
   WholeArmFit fit;
   RowBlock acting{0, rows.torque.size()};
   if (found.window) {
-    acting = refined(rows, law, *found.window, basis, residual);
+    acting = refined(rows, effect, *found.window, basis, residual);
     std::size_t const recording = rows.stretches[found.window->from].recording;
     auto const time = [&](Eigen::Index row) { return rows.rows[static_cast<std::size_t>(row)].time_s; };
     RowBlock const whole = rows_of_recording(rows, recording);
@@ -133,8 +133,9 @@ WholeArmFit fit_whole_arm_law(WholeArmRows const& rows, ScannedLaw const& found,
     if (acting.from > whole.from) fit.time->from_s = time(acting.from);
     if (acting.to < whole.to) fit.time->until_s = time(acting.to);
   }
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows.torque.size(), law.count);
-  columns.middleRows(acting.from, acting.size()) = rows.laws.block(acting.from, law.first, acting.size(), law.count);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows.torque.size(), effect.count);
+  columns.middleRows(acting.from, acting.size()) =
+      rows.effects.block(acting.from, effect.first, acting.size(), effect.count);
   Eigen::VectorXd const energy = columns.colwise().squaredNorm();
   columns -= basis * inner_products(basis, columns);
   Eigen::MatrixXd const gram = inner_products(columns, columns), root = inverse_root(gram, energy);

@@ -1,10 +1,10 @@
 #pragma once
-// One law of the whole arm beside its model: the instants between which it acts, its parameters, and what both leave
+// One effect of the whole arm beside its model: the instants between which it acts, its parameters, and what both leave
 // on rows that were left out.
 //
 // Instants   each to the kept sample, within a stretch of where the scan found it: the largest fall of the energy
 // Errors     of one standard deviation, stretches as clusters (Liang, Zeger 1986, doi:10.1093/biomet/73.1.13)
-// Shapes     n rows, r parameters of the law
+// Shapes     n rows, r parameters of the effect
 // Threads    free functions
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 
 namespace torquescope {
 
-// of one recording; infinite where the law acts from its beginning, to its end
+// of one recording; infinite where the effect acts from its beginning, to its end
 struct ActingTime {
   std::size_t recording = 0;
   double from_s = -std::numeric_limits<double>::infinity(), until_s = std::numeric_limits<double>::infinity();
@@ -35,8 +35,8 @@ struct WholeArmFit {
 };
 
 // basis: n x k orthonormal; residual: n, what it leaves
-WholeArmFit fit_whole_arm_law(WholeArmRows const& rows, ScannedLaw const& found, Eigen::MatrixXd const& basis,
-                              Eigen::VectorXd const& residual);
+WholeArmFit fit_whole_arm_effect(WholeArmRows const& rows, ScannedEffect const& found, Eigen::MatrixXd const& basis,
+                                 Eigen::VectorXd const& residual);
 
 // n: what is left of the signal on rows that were left out
 Eigen::VectorXd left_out_of_stretches(WholeArmRows const& rows, Eigen::MatrixXd const& basis,

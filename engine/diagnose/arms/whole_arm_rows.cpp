@@ -9,7 +9,7 @@ namespace torquescope {
 namespace {
 
 RowGrid grid_of(Strip const& strip, double begins_s) {
-  auto const& filter = *strip.filters->laws;
+  auto const& filter = *strip.filters->effects;
   double const period_s = static_cast<double>(strip.rows_apart) / filter.kept_rate_hz();
   Eigen::VectorXd const times = filter.pick(strip.motion.time_s);
   return {(filter.kept_samples() + strip.rows_apart - 1) / strip.rows_apart, begins_s + times[0], period_s,
@@ -52,45 +52,45 @@ void add_stretches(WholeArmRows& all) {
 
 }  // namespace
 
-std::vector<LawPlace> law_places(std::vector<WholeArmLaw> const& laws) {
-  std::vector<LawPlace> places;
-  for (WholeArmLaw const& law : laws)
-    places.push_back({law.effect, law.joint, law_columns(places), law.columns.front().cols()});
+std::vector<EffectPlace> effect_places(std::vector<WholeArmEffect> const& effects) {
+  std::vector<EffectPlace> places;
+  for (WholeArmEffect const& asked : effects)
+    places.push_back({asked.effect, asked.joint, effect_columns(places), asked.columns.front().cols()});
   return places;
 }
 
-Eigen::Index law_columns(std::vector<LawPlace> const& places) {
+Eigen::Index effect_columns(std::vector<EffectPlace> const& places) {
   return places.empty() ? 0 : places.back().first + places.back().count;
 }
 
-void give_whole_arm_laws(std::vector<Recording>& joints, std::vector<WholeArmLaw> const& laws) {
-  for (std::size_t j = 0; j < joints.size() && !laws.empty(); ++j) {
-    Eigen::MatrixXd columns(joints[j].position.size(), law_columns(law_places(laws)));
+void give_whole_arm_effects(std::vector<Recording>& joints, std::vector<WholeArmEffect> const& effects) {
+  for (std::size_t j = 0; j < joints.size() && !effects.empty(); ++j) {
+    Eigen::MatrixXd columns(joints[j].position.size(), effect_columns(effect_places(effects)));
     Eigen::Index first = 0;
-    for (WholeArmLaw const& law : laws) {
-      columns.middleCols(first, law.columns[j].cols()) = law.columns[j];
-      first += law.columns[j].cols();
+    for (WholeArmEffect const& asked : effects) {
+      columns.middleCols(first, asked.columns[j].cols()) = asked.columns[j];
+      first += asked.columns[j].cols();
     }
     GivenSignals given = joints[j].given ? *joints[j].given : GivenSignals{};
-    given.laws.push_back({whole_arm_laws_name, std::move(columns)});
+    given.effects.push_back({whole_arm_effects_name, std::move(columns)});
     joints[j].given = std::make_shared<GivenSignals const>(std::move(given));
   }
 }
 
-ArmRowsOfJoint rows_of_joint(DecidedJoint const& joint, Eigen::Index laws) {
-  SharedLaw of_laws{whole_arm_laws_name, joint.shared.instead_of, {}, laws};
-  of_laws.places.resize(static_cast<std::size_t>(laws));
-  std::iota(of_laws.places.begin(), of_laws.places.end(), Eigen::Index{0});
+ArmRowsOfJoint rows_of_joint(DecidedJoint const& joint, Eigen::Index effects) {
+  SharedEffect of_effects{whole_arm_effects_name, joint.shared.instead_of, {}, effects};
+  of_effects.places.resize(static_cast<std::size_t>(effects));
+  std::iota(of_effects.places.begin(), of_effects.places.end(), Eigen::Index{0});
   ArmRowsOfJoint made;
   made.training.joint = joint.joint;
   made.training.model = shared_rows(*joint.model.fitted, joint.shared);
-  made.training.laws = shared_rows(*joint.model.fitted, of_laws).shared;
+  made.training.effects = shared_rows(*joint.model.fitted, of_effects).shared;
   made.training.torque_energy = joint.strips.training_energy;
   std::size_t recording = 0;
   for (Strip const& strip : *joint.strips.training) add_strip(made.training, strip, joint.begins_s[recording++]);
   for (Strip const& strip : joint.strips.validation) {
     RowsOfJoint one{joint.joint, predicted_rows(joint.model, strip, joint.shared).rows,
-                    predicted_rows(joint.model, strip, of_laws).rows.shared};
+                    predicted_rows(joint.model, strip, of_effects).rows.shared};
     one.torque_energy = on_rows(strip, strip.torque).squaredNorm();
     add_strip(one, strip, joint.begins_s[recording++]);
     made.validation.push_back(std::move(one));
@@ -99,7 +99,7 @@ ArmRowsOfJoint rows_of_joint(DecidedJoint const& joint, Eigen::Index laws) {
 }
 
 WholeArmRows whole_arm_rows(std::vector<RowsOfJoint const*> const& joints, std::vector<Eigen::Index> const& own_columns,
-                            Eigen::VectorXd const& noise, std::vector<LawPlace> const& places) {
+                            Eigen::VectorXd const& noise, std::vector<EffectPlace> const& places) {
   WholeArmRows all;
   all.places = places;
   if (joints.empty()) return all;
@@ -114,7 +114,7 @@ WholeArmRows whole_arm_rows(std::vector<RowsOfJoint const*> const& joints, std::
   }
   Eigen::Index const n = std::ssize(rows), shared = joints.front()->model.shared.cols();
   all.model.setZero(n, shared + std::accumulate(own_columns.begin(), own_columns.end(), Eigen::Index{0}));
-  all.laws.resize(n, law_columns(places));
+  all.effects.resize(n, effect_columns(places));
   all.torque.resize(n);
   Eigen::Index own = shared;
   auto first = place.begin();
@@ -125,7 +125,7 @@ WholeArmRows whole_arm_rows(std::vector<RowsOfJoint const*> const& joints, std::
     first += std::ssize(joint.rows);
     all.model(at, Eigen::seqN(0, shared)) = per_noise * joint.model.shared;
     all.model(at, Eigen::seqN(own, joint.model.own.cols())) = per_noise * joint.model.own;
-    all.laws(at, Eigen::all) = per_noise * joint.laws;
+    all.effects(at, Eigen::all) = per_noise * joint.effects;
     all.torque(at) = per_noise * joint.model.torque;
     all.torque_energy += joint.torque_energy;
   }

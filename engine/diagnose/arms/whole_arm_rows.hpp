@@ -1,11 +1,11 @@
 #pragma once
-// Rows of all joints of an arm in the order of time, with the columns of their models and of laws of the whole arm.
+// Rows of all joints of an arm in the order of time, with the columns of their models and of effects of the whole arm.
 //
 // Rows       of all samples, as the model of each joint treats them: its delay, samples at rest, sticking
-//            (all_rows/treated_fit.hpp); divided by the noise of their joint; of a recording by instant, then by joint
+//            (decision/treated_fit.hpp); divided by the noise of their joint; of a recording by instant, then by joint
 // Model      columns that the joints share, then those of each joint's own
 // Stretches  each recording in twenty of equal length: what is left out, and what may turn its sign, together
-// Shapes     n rows, P columns of the model, L of all laws side by side
+// Shapes     n rows, P columns of the model, L of all effects side by side
 // Errors     those of the filters
 // Threads    free functions
 
@@ -14,9 +14,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/diagnose/arms/arm_laws.hpp"
+#include "engine/diagnose/arms/arm_effects.hpp"
 #include "engine/fit/statistics/equal_blocks.hpp"
-#include "engine/infer/all_rows/pooled_rows.hpp"
+#include "engine/infer/decision/pooled_rows.hpp"
 
 namespace torquescope {
 
@@ -33,14 +33,14 @@ struct ArmStretch {
   double from_s = 0.0, until_s = 0.0;
 };
 
-// of a law: its columns among those of all
-struct LawPlace {
+// of an effect: its columns among those of all
+struct EffectPlace {
   Effect const* effect = nullptr;
   std::optional<std::size_t> joint{};
   Eigen::Index first = 0, count = 0;
 };
-std::vector<LawPlace> law_places(std::vector<WholeArmLaw> const& laws);
-Eigen::Index law_columns(std::vector<LawPlace> const& places);
+std::vector<EffectPlace> effect_places(std::vector<WholeArmEffect> const& effects);
+Eigen::Index effect_columns(std::vector<EffectPlace> const& places);
 
 // the grid of rows of one recording; all joints have the same
 struct RowGrid {
@@ -53,45 +53,45 @@ struct RowGrid {
 struct RowsOfJoint {
   std::size_t joint = 0;
   SharedRows model{};
-  Eigen::MatrixXd laws{};      // n x L
+  Eigen::MatrixXd effects{};   // n x L
   std::vector<ArmRow> rows{};  // n
   std::vector<RowGrid> recordings{};
   double torque_energy = 0.0;  // of the filtered torque as it is
 };
 
 struct WholeArmRows {
-  Eigen::MatrixXd model{}, laws{};  // n x P, n x L
-  Eigen::VectorXd torque{};         // n
-  std::vector<ArmRow> rows{};       // n
+  Eigen::MatrixXd model{}, effects{};  // n x P, n x L
+  Eigen::VectorXd torque{};            // n
+  std::vector<ArmRow> rows{};          // n
   std::vector<ArmStretch> stretches{};
   std::vector<RowGrid> recordings{};
-  std::vector<LawPlace> places{};
+  std::vector<EffectPlace> places{};
   double torque_energy = 0.0;  // of all joints
 };
 
 inline constexpr Eigen::Index stretches_per_recording = 2 * n_folds;
-inline constexpr char const* whole_arm_laws_name = "whole_arm_laws";
+inline constexpr char const* whole_arm_effects_name = "whole_arm_laws";
 
-// the laws' columns at the joints of one recording, for rows_of_joint() to find
-void give_whole_arm_laws(std::vector<Recording>& joints, std::vector<WholeArmLaw> const& laws);
+// the effects' columns at the joints of one recording, for rows_of_joint() to find
+void give_whole_arm_effects(std::vector<Recording>& joints, std::vector<WholeArmEffect> const& effects);
 
 // a joint of an arm as a model of its own has it
 struct DecidedJoint {
   std::size_t joint = 0;
   JointStrips const& strips;
   FittedModel const& model;
-  SharedLaw shared{};
+  SharedEffect shared{};
   std::vector<double> begins_s{};  // of each recording on its own clock, those of training first
 };
 struct ArmRowsOfJoint {
   RowsOfJoint training{};
   std::vector<RowsOfJoint> validation{};  // of each recording
 };
-// laws: L
-ArmRowsOfJoint rows_of_joint(DecidedJoint const& joint, Eigen::Index laws);
+// effects: L
+ArmRowsOfJoint rows_of_joint(DecidedJoint const& joint, Eigen::Index effects);
 
 // own_columns: of each joint; fewer in recordings that are predicted, whose further ones are zero. noise: [N]
 WholeArmRows whole_arm_rows(std::vector<RowsOfJoint const*> const& joints, std::vector<Eigen::Index> const& own_columns,
-                            Eigen::VectorXd const& noise, std::vector<LawPlace> const& places);
+                            Eigen::VectorXd const& noise, std::vector<EffectPlace> const& places);
 
 }  // namespace torquescope

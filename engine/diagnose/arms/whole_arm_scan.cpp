@@ -19,10 +19,10 @@ constexpr auto folds_count = static_cast<std::size_t>(n_folds);
 
 std::size_t fold_of(std::size_t stretch) { return stretch % folds_count; }
 
-// products of one stretch; k columns of the basis, L of all laws
+// products of one stretch; k columns of the basis, L of all effects
 struct OfStretch {
-  Eigen::MatrixXd basis{}, laws{}, laws_basis{};      // k x k, L x L, L x k
-  Eigen::VectorXd basis_residual{}, laws_residual{};  // k, L
+  Eigen::MatrixXd basis{}, effects{}, effects_basis{};   // k x k, L x L, L x k
+  Eigen::VectorXd basis_residual{}, effects_residual{};  // k, L
 };
 
 // stretches x (1 + M): the recording first, then replicates
@@ -75,9 +75,9 @@ class Scan {
       : rows_(rows), signs_(signs_of(rows.stretches.size(), setting)), stretches_(rows.stretches.size()) {
     parallel_for(stretches_.size(), setting.threads, [&](std::size_t s, int) {
       RowBlock const& block = rows_.stretches[s].rows;
-      stretches_[s] = {inner_products(basis, basis, block), inner_products(rows_.laws, rows_.laws, block),
-                       inner_products(rows_.laws, basis, block), inner_products(basis, residual, block),
-                       inner_products(rows_.laws, residual, block)};
+      stretches_[s] = {inner_products(basis, basis, block), inner_products(rows_.effects, rows_.effects, block),
+                       inner_products(rows_.effects, basis, block), inner_products(basis, residual, block),
+                       inner_products(rows_.effects, residual, block)};
     });
     FoldProducts gram = nothing(basis.cols(), basis.cols()), signals = nothing(basis.cols(), signs_.rows());
     for (std::size_t s = 0; s < stretches_.size(); ++s) {
@@ -89,17 +89,17 @@ class Scan {
     beside_ = LeftOutGains(gram_, signals_);
   }
 
-  // 1 + M; empty: the basis explains the law there
-  Eigen::RowVectorXd gains(LawPlace const& law, StretchWindow const& window) const {
-    Eigen::Index const r = law.count, k = gram_.whole.rows();
+  // 1 + M; empty: the basis explains the effect there
+  Eigen::RowVectorXd gains(EffectPlace const& effect, StretchWindow const& window) const {
+    Eigen::Index const r = effect.count, k = gram_.whole.rows();
     FoldProducts own = nothing(r, r), cross = nothing(r, k), products = nothing(r, signs_.rows());
     for (std::size_t s = window.from; s < window.to; ++s) {
       OfStretch const& one = stretches_[s];
-      add(own, fold_of(s), one.laws.block(law.first, law.first, r, r));
-      add(cross, fold_of(s), one.laws_basis.middleRows(law.first, r));
-      add_signal(products, s, one.laws_residual.segment(law.first, r));
+      add(own, fold_of(s), one.effects.block(effect.first, effect.first, r, r));
+      add(cross, fold_of(s), one.effects_basis.middleRows(effect.first, r));
+      add_signal(products, s, one.effects_residual.segment(effect.first, r));
     }
-    Eigen::MatrixXd const in_basis = cross.whole;  // what the basis has of the law
+    Eigen::MatrixXd const in_basis = cross.whole;  // what the basis has of the effect
     Eigen::MatrixXd const root = inverse_root(own.whole - in_basis * in_basis.transpose(), own.whole.diagonal());
     if (root.cols() == 0) return {};
     for (std::size_t f = 0; f < folds_count; ++f) {
@@ -127,12 +127,12 @@ class Scan {
   LeftOutGains beside_{};
 };
 
-std::vector<ScannedLaw> candidates_of(WholeArmRows const& rows) {
-  std::vector<ScannedLaw> candidates;
+std::vector<ScannedEffect> candidates_of(WholeArmRows const& rows) {
+  std::vector<ScannedEffect> candidates;
   std::size_t const n = rows.stretches.size();
-  for (std::size_t law = 0; law < rows.places.size(); ++law) {
-    if (!rows.places[law].effect->is_event()) {
-      candidates.push_back({law});
+  for (std::size_t effect = 0; effect < rows.places.size(); ++effect) {
+    if (!rows.places[effect].effect->is_event()) {
+      candidates.push_back({effect});
       continue;
     }
     // of a single recording what acts up to an instant is what acts from there on with the other sign
@@ -140,7 +140,7 @@ std::vector<ScannedLaw> candidates_of(WholeArmRows const& rows) {
     for (std::size_t from = is_only_one ? 1 : 0; from < n; ++from)
       for (std::size_t to = from + 2; to <= n; ++to) {
         bool const is_one = rows.stretches[from].recording == rows.stretches[to - 1].recording;
-        if (is_one) candidates.push_back({law, StretchWindow{from, to}});
+        if (is_one) candidates.push_back({effect, StretchWindow{from, to}});
       }
   }
   return candidates;
@@ -148,16 +148,16 @@ std::vector<ScannedLaw> candidates_of(WholeArmRows const& rows) {
 
 }  // namespace
 
-std::vector<ScannedLaw> scan_whole_arm_laws(WholeArmRows const& rows, Eigen::MatrixXd const& basis,
-                                            Eigen::VectorXd const& residual, ScanSetting const& setting) {
+std::vector<ScannedEffect> scan_whole_arm_effects(WholeArmRows const& rows, Eigen::MatrixXd const& basis,
+                                                  Eigen::VectorXd const& residual, ScanSetting const& setting) {
   Scan const scan(rows, basis, residual, setting);
-  std::vector<ScannedLaw> candidates = candidates_of(rows);
+  std::vector<ScannedEffect> candidates = candidates_of(rows);
   // z of every candidate: the recording first, then replicates
   std::vector<std::vector<double>> z(candidates.size());
   parallel_for(candidates.size(), setting.threads, [&](std::size_t i, int) {
-    ScannedLaw& one = candidates[i];
+    ScannedEffect& one = candidates[i];
     StretchWindow const everywhere{0, rows.stretches.size()};
-    Eigen::RowVectorXd const gains = scan.gains(rows.places[one.law], one.window.value_or(everywhere));
+    Eigen::RowVectorXd const gains = scan.gains(rows.places[one.effect], one.window.value_or(everywhere));
     if (gains.size() == 0) return;
     std::span<double const> const chance(gains.data() + 1, static_cast<std::size_t>(n_replicates));
     one.gain = gains[0];
@@ -167,10 +167,10 @@ std::vector<ScannedLaw> scan_whole_arm_laws(WholeArmRows const& rows, Eigen::Mat
   std::vector<double> largest(static_cast<std::size_t>(n_replicates), -std::numeric_limits<double>::infinity());
   for (auto const& of_one : z)
     for (std::size_t r = 0; r < of_one.size(); ++r) largest[r] = std::max(largest[r], of_one[r]);
-  std::vector<ScannedLaw> best;
+  std::vector<ScannedEffect> best;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (z[i].empty()) continue;
-    bool const is_new = best.empty() || best.back().law != candidates[i].law;
+    bool const is_new = best.empty() || best.back().effect != candidates[i].effect;
     if (is_new)
       best.push_back(candidates[i]);
     else if (candidates[i].z > best.back().z)

@@ -1,9 +1,10 @@
 #pragma once
-// What every law of the whole arm gains on rows left out, in every window of time it may act in, and what chance gains.
+// What every effect of the whole arm gains on rows left out, in every window of time it may act in, and what chance
+// gains.
 //
 // Gain       fall of the energy left out (left_out.hpp): stretches of a recording are dealt to ten folds in turn, so
-//            that a law that acts in a part is fitted on the rest of it
-// Window     a law with instants acts in two or more stretches of one recording that follow each other
+//            that an effect that acts in a part is fitted on the rest of it
+// Window     an effect with instants acts in two or more stretches of one recording that follow each other
 // Null       what the model leaves, each stretch with a random sign that all joints share (dependent wild bootstrap:
 //            Shao 2010, doi:10.1198/jasa.2009.tm08744); z of each candidate by its own, p of the largest over all
 //            (max-T: Westfall, Young 1993, ISBN 978-0-471-55761-6)
@@ -26,8 +27,8 @@ struct StretchWindow {
   std::size_t from = 0, to = 0;
 };
 
-struct ScannedLaw {
-  std::size_t law = 0;                    // of WholeArmRows::places
+struct ScannedEffect {
+  std::size_t effect = 0;                 // of WholeArmRows::places
   std::optional<StretchWindow> window{};  // none: everywhere
   double gain = 0.0, z = 0.0, p = 1.0;
 };
@@ -38,10 +39,10 @@ struct ScanSetting {
   int threads = 1;
 };
 
-// of each law its best window, in the order of rows.places; laws that the basis explains are left out.
+// of each effect its best window, in the order of rows.places; effects that the basis explains are left out.
 // basis: n x k orthonormal, residual: n, what it leaves
-std::vector<ScannedLaw> scan_whole_arm_laws(WholeArmRows const& rows, Eigen::MatrixXd const& basis,
-                                            Eigen::VectorXd const& residual, ScanSetting const& setting);
+std::vector<ScannedEffect> scan_whole_arm_effects(WholeArmRows const& rows, Eigen::MatrixXd const& basis,
+                                                  Eigen::VectorXd const& residual, ScanSetting const& setting);
 
 // the stretches of each fold
 std::vector<Fold> folds_of_stretches(WholeArmRows const& rows);

@@ -31,7 +31,7 @@ class WholeArmWork {
   WholeArmAnswer run() {
     WholeArmAnswer answer;
     for (std::uint32_t step = 0; !rows_.places.empty() && !rows_.stretches.empty(); ++step) {
-      auto scanned = scan_whole_arm_laws(rows_, basis_, residual_, {question_.seed, step, question_.threads});
+      auto scanned = scan_whole_arm_effects(rows_, basis_, residual_, {question_.seed, step, question_.threads});
       if (scanned.empty()) break;
       sort_strongest_first(scanned);
       Eigen::VectorXd const left = left_out_of_stretches(rows_, basis_, residual_);
@@ -52,7 +52,7 @@ class WholeArmWork {
 
  private:
   struct Judged {
-    FoundWholeArmLaw found{};
+    FoundWholeArmEffect found{};
     WholeArmFit fit{};
     Eigen::VectorXd left{};
   };
@@ -69,11 +69,11 @@ class WholeArmWork {
     return stretches;
   }
 
-  // z tells a law from chance, and what it gains tells laws apart: those beyond chance come by their gain
-  void sort_strongest_first(std::vector<ScannedLaw>& scanned) const {
+  // z tells an effect from chance, and what it gains tells effects apart: those beyond chance come by their gain
+  void sort_strongest_first(std::vector<ScannedEffect>& scanned) const {
     std::stable_sort(scanned.begin(), scanned.end(), [](auto const& a, auto const& b) { return a.z > b.z; });
-    auto const chance = std::stable_partition(scanned.begin(), scanned.end(),
-                                              [&](ScannedLaw const& one) { return one.p <= question_.numbers.alpha; });
+    auto const chance = std::stable_partition(
+        scanned.begin(), scanned.end(), [&](ScannedEffect const& one) { return one.p <= question_.numbers.alpha; });
     std::stable_sort(scanned.begin(), chance, [](auto const& a, auto const& b) { return a.gain > b.gain; });
   }
 
@@ -86,12 +86,12 @@ class WholeArmWork {
     return held_out_gain(blocks, which);
   }
 
-  Judged judged(ScannedLaw const& scanned, Eigen::VectorXd const& left) const {
+  Judged judged(ScannedEffect const& scanned, Eigen::VectorXd const& left) const {
     Judged one;
-    one.fit = fit_whole_arm_law(rows_, scanned, basis_, residual_);
+    one.fit = fit_whole_arm_effect(rows_, scanned, basis_, residual_);
     one.left = left_out_of_stretches(rows_, beside(basis_, one.fit.directions), residual_);
-    FoundWholeArmLaw& found = one.found;
-    found.law = rows_.places[scanned.law];
+    FoundWholeArmEffect& found = one.found;
+    found.effect = rows_.places[scanned.effect];
     found.time = one.fit.time;
     found.values = one.fit.values;
     found.errors = one.fit.errors;
@@ -122,7 +122,7 @@ class WholeArmWork {
     return one;
   }
 
-  WholeArmReason reason_of(FoundWholeArmLaw const& found, HeldOutGain const& held_out, double left_share) const {
+  WholeArmReason reason_of(FoundWholeArmEffect const& found, HeldOutGain const& held_out, double left_share) const {
     if (found.p > question_.numbers.alpha) return WholeArmReason::chance;
     if (!is_within_bounds(found)) return WholeArmReason::out_of_bounds;
     if (held_out.change != HeldOutChange::lower) return WholeArmReason::not_held_out;
@@ -132,9 +132,9 @@ class WholeArmWork {
     return WholeArmReason::accepted;
   }
 
-  // bounds of such laws are plain numbers
-  static bool is_within_bounds(FoundWholeArmLaw const& found) {
-    auto const& parameters = found.law.effect->parameters();
+  // bounds of such effects are plain numbers
+  static bool is_within_bounds(FoundWholeArmEffect const& found) {
+    auto const& parameters = found.effect.effect->parameters();
     for (Eigen::Index i = 0; i < found.values.size(); ++i) {
       EffectParameter const& one = parameters[static_cast<std::size_t>(i)];
       if (found.values[i] < one.lower.factor || found.values[i] > one.upper.factor) return false;
@@ -142,50 +142,50 @@ class WholeArmWork {
     return true;
   }
 
-  // torque of accepted laws and of one more, on the rows of a recording: divided by noise as these are
-  static Eigen::VectorXd law_torque(WholeArmRows const& rows, FoundWholeArmLaw const& law) {
-    return rows.laws.middleCols(law.law.first, law.law.count) * law.values;
+  // torque of accepted effects and of one more, on the rows of a recording: divided by noise as these are
+  static Eigen::VectorXd effect_torque(WholeArmRows const& rows, FoundWholeArmEffect const& found) {
+    return rows.effects.middleCols(found.effect.first, found.effect.count) * found.values;
   }
 
-  Eigen::VectorXd trained_torque(FoundWholeArmLaw const& law) const {
-    Eigen::VectorXd torque = law_torque(rows_, law);
-    if (!law.time) return torque;
+  Eigen::VectorXd trained_torque(FoundWholeArmEffect const& found) const {
+    Eigen::VectorXd torque = effect_torque(rows_, found);
+    if (!found.time) return torque;
     for (ArmStretch const& stretch : rows_.stretches)
       for (Eigen::Index i = stretch.rows.from; i < stretch.rows.to; ++i)
-        if (!law.time->holds(stretch.recording, rows_.rows[static_cast<std::size_t>(i)].time_s)) torque[i] = 0.0;
+        if (!found.time->holds(stretch.recording, rows_.rows[static_cast<std::size_t>(i)].time_s)) torque[i] = 0.0;
     return torque;
   }
 
-  // what validation recordings leave, of all laws beside the model as fitted with them; the last law is yet to be
+  // what validation recordings leave, of all effects beside the model as fitted with them; the last effect is yet to be
   // placed
-  Eigen::VectorXd validation_left(std::size_t which, std::vector<FoundWholeArmLaw> const& laws) const {
+  Eigen::VectorXd validation_left(std::size_t which, std::vector<FoundWholeArmEffect> const& effects) const {
     Eigen::VectorXd torque = rows_.torque;
-    for (auto const& law : laws) torque -= trained_torque(law);
+    for (auto const& effect : effects) torque -= trained_torque(effect);
     Eigen::VectorXd const parameters = solve_scaled(rows_.model, torque);
     WholeArmRows const& rows = validation_[which];
     Eigen::VectorXd left = rows.torque - rows.model * parameters;
-    for (auto const& law : laws)
-      if (which < law.validation_times.size()) left -= placed_torque(rows, law, which);
+    for (auto const& effect : effects)
+      if (which < effect.validation_times.size()) left -= placed_torque(rows, effect, which);
     return left;
   }
 
-  static Eigen::VectorXd placed_torque(WholeArmRows const& rows, FoundWholeArmLaw const& law, std::size_t which) {
-    auto const& time = law.validation_times[which];
-    Eigen::VectorXd torque = law_torque(rows, law);
+  static Eigen::VectorXd placed_torque(WholeArmRows const& rows, FoundWholeArmEffect const& found, std::size_t which) {
+    auto const& time = found.validation_times[which];
+    Eigen::VectorXd torque = effect_torque(rows, found);
     for (Eigen::Index i = 0; i < torque.size(); ++i)
       if (!time || !time->holds(which, rows.rows[static_cast<std::size_t>(i)].time_s)) torque[i] = 0.0;
     return torque;
   }
 
-  void look_at_validation(FoundWholeArmLaw& found) const {
+  void look_at_validation(FoundWholeArmEffect& found) const {
     double before = 0.0, after = 0.0, torque = 0.0;
-    std::vector<FoundWholeArmLaw> with = accepted_;
+    std::vector<FoundWholeArmEffect> with = accepted_;
     with.push_back(found);
     for (std::size_t k = 0; k < validation_.size(); ++k) {
       found.validation_times.emplace_back();
       if (validation_[k].stretches.empty()) continue;
       RowBlock const all{0, validation_[k].torque.size()};
-      Eigen::VectorXd left = validation_left(k, with), acting = law_torque(validation_[k], found);
+      Eigen::VectorXd left = validation_left(k, with), acting = effect_torque(validation_[k], found);
       found.validation_times.back() = ActingTime{k};
       if (found.time) {
         auto own = own_instants(validation_[k], k, left, acting, question_.numbers.alpha,
@@ -203,14 +203,14 @@ class WholeArmWork {
     found.validation_after = std::sqrt(after / torque);
   }
 
-  std::vector<Effect const*> alike_to(Judged const& best, std::vector<ScannedLaw> const& scanned,
+  std::vector<Effect const*> alike_to(Judged const& best, std::vector<ScannedEffect> const& scanned,
                                       Eigen::VectorXd const& left) const {
     std::vector<Effect const*> alike;
     auto const stretches = concerned(best.found.time);
-    for (ScannedLaw const& one : scanned) {
-      Effect const* effect = rows_.places[one.law].effect;
+    for (ScannedEffect const& one : scanned) {
+      Effect const* effect = rows_.places[one.effect].effect;
       bool const is_known =
-          effect == best.found.law.effect || std::find(alike.begin(), alike.end(), effect) != alike.end();
+          effect == best.found.effect.effect || std::find(alike.begin(), alike.end(), effect) != alike.end();
       if (is_known || one.p > question_.numbers.alpha) continue;
       Judged const rival = judged(one, left);
       bool const is_worse =
@@ -226,7 +226,7 @@ class WholeArmWork {
   std::span<WholeArmRows const> validation_;
   Eigen::MatrixXd basis_{};     // of the model and of what was accepted
   Eigen::VectorXd residual_{};  // what it leaves
-  std::vector<FoundWholeArmLaw> accepted_{};
+  std::vector<FoundWholeArmEffect> accepted_{};
 };
 
 }  // namespace
@@ -236,17 +236,18 @@ WholeArmAnswer search_whole_arm(WholeArmQuestion const& question) {
   return WholeArmWork(question).run();
 }
 
-std::vector<Eigen::VectorXd> whole_arm_torques(std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of) {
+std::vector<Eigen::VectorXd> whole_arm_torques(std::vector<FoundWholeArmEffect> const& accepted,
+                                               OneRecording const& of) {
   std::vector<Eigen::VectorXd> torques;
-  for (auto const& columns : of.laws.front().columns) torques.emplace_back(Eigen::VectorXd::Zero(columns.rows()));
-  for (FoundWholeArmLaw const& found : accepted) {
-    auto const law = std::find_if(of.laws.begin(), of.laws.end(), [&](WholeArmLaw const& one) {
-      return one.effect == found.law.effect && one.joint == found.law.joint;
+  for (auto const& columns : of.effects.front().columns) torques.emplace_back(Eigen::VectorXd::Zero(columns.rows()));
+  for (FoundWholeArmEffect const& found : accepted) {
+    auto const effect = std::find_if(of.effects.begin(), of.effects.end(), [&](WholeArmEffect const& one) {
+      return one.effect == found.effect.effect && one.joint == found.effect.joint;
     });
     auto const& time = of.is_validation ? found.validation_times[of.which] : found.time;
     if (of.is_validation && !time) continue;
     for (std::size_t j = 0; j < torques.size(); ++j) {
-      Eigen::VectorXd torque = law->columns[j] * found.values;
+      Eigen::VectorXd torque = effect->columns[j] * found.values;
       for (Eigen::Index i = 0; i < torque.size() && time; ++i)
         if (!time->holds(of.which, of.time_s[i])) torque[i] = 0.0;
       torques[j] += torque;

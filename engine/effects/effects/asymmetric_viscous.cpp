@@ -30,7 +30,7 @@ class AsymmetricViscous final : public InstantEffect {
                        .code = "asymmetric_viscous * fabs(dq)"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const>, JointScales const&, EffectColumns out) const override {
     out.col(0) = at.dq.abs();
   }
 };

@@ -8,7 +8,7 @@
 //            [rad; m]; rest_speed v_r [rad/s; m/s]: half of the ageing is left; small: only a standing contact ages
 // Signature  distance since the reversal of the velocity: a spike whose height follows the rest before it
 // Confused   stribeck; rests of different length tell them apart
-// Source     Rabinowicz 1958; Ruina 1983, doi:10.1029/JB088iB12p10359 (law of ageing); Armstrong-Helouvry, Dupont,
+// Source     Rabinowicz 1958; Ruina 1983, doi:10.1029/JB088iB12p10359 (ageing of contacts); Armstrong-Helouvry, Dupont,
 //            Canudas de Wit 1994, doi:10.1016/0005-1098(94)90209-7 (dwell time)
 
 #include "engine/effects/ageing_contacts.hpp"

@@ -14,7 +14,7 @@ namespace {
 
 // what clips has been there: its limit is the extreme of the record, but for noise behind the limit
 EffectParameter limit(char const* name, RelativeTo extreme) {
-  return law_at_upper(shape_parameter(name, "N m", "N", {0.8, extreme}, {1.0, extreme}, Spacing::linear));
+  return effect_at_upper(shape_parameter(name, "N m", "N", {0.8, extreme}, {1.0, extreme}, Spacing::linear));
 }
 
 class Clipping final : public InstantEffect {
@@ -25,7 +25,7 @@ class Clipping final : public InstantEffect {
                        .equation = "recorded torque + c (clamp(tau_motor, -M, L) - tau_motor)",
                        .source = "definition of saturation",
                        .separated_by = "a gentler motion, and a log of the saturation flag",
-                       .parameters = {law_at_upper({"clipping", "1", "1", {0.0}, {1.0}}),
+                       .parameters = {effect_at_upper({"clipping", "1", "1", {0.0}, {1.0}}),
                                       limit("clipping_limit", RelativeTo::torque_highest),
                                       limit("clipping_limit_negative", RelativeTo::torque_lowest)},
                        .families = {EffectFamily::measurement, EffectFamily::load},
@@ -36,7 +36,8 @@ class Clipping final : public InstantEffect {
                        .is_of_extremes = true}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const&,
+                EffectColumns out) const override {
     out.col(0) = at.motor_torque.max(-shape[1]).min(shape[0]) - at.motor_torque;
   }
 };

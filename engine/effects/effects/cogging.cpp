@@ -31,7 +31,8 @@ class Cogging final : public InstantEffect {
              .code = "cogging_cos * cos(cogging_order * q) + cogging_sin * sin(cogging_order * q)"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const&,
+                EffectColumns out) const override {
     cosine_sine(shape[0], at.q, out.col(0), out.col(1));
   }
 };

@@ -5,7 +5,7 @@
 //            not in the first and last moments: what came before the recording, a long rest above all, is not in it
 // Signature  time: one stretch, not repeated, whatever the motion
 // Confused   sensor_drift
-// Source     De Luca, Mattone 2005 (momentum observer; the push itself has no law)
+// Source     De Luca, Mattone 2005 (momentum observer; the push itself is not modelled there)
 
 #include <numbers>
 
@@ -26,14 +26,15 @@ class Contact final : public InstantEffect {
              .parameters = {{"contact", "N m", "N", {-10.0, RelativeTo::torque}, {10.0, RelativeTo::torque}},
                             shape_parameter("contact_start", "s", "s", {0.02, RelativeTo::instant},
                                             {0.98, RelativeTo::instant}, Spacing::linear),
-                            law_at_lower(shape_parameter("contact_width", "s", "s", {5.0, RelativeTo::filter_time},
-                                                         {0.2, RelativeTo::duration}, Spacing::logarithmic))},
+                            effect_at_lower(shape_parameter("contact_width", "s", "s", {5.0, RelativeTo::filter_time},
+                                                            {0.2, RelativeTo::duration}, Spacing::logarithmic))},
              .families = {EffectFamily::outside, EffectFamily::time},
              .signature = {SignatureAxis::time},
              .parity = Parity::even}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const&,
+                EffectColumns out) const override {
     Scratch const phase = (at.time_s - shape[0]) / shape[1];
     Scratch cosine(phase.size());
     auto wave = out.col(0);

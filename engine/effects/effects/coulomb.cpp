@@ -22,7 +22,7 @@ class Coulomb final : public InstantEffect {
                        .code = "coulomb * s"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const>, JointScales const&, EffectColumns out) const override {
     out.col(0) = sign(at.dq);
   }
 };

@@ -23,7 +23,7 @@ class CoulombNegative final : public InstantEffect {
                        .code = "coulomb_negative * (dq < 0)"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const>, JointScales const&, EffectColumns out) const override {
     out.col(0) = (at.dq < 0.0).cast<double>();
   }
 };

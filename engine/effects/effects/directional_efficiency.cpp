@@ -24,9 +24,9 @@ class DirectionalEfficiency final : public InstantEffect {
                        .separated_by = "all four quadrants of torque and speed: lift and lower a load",
                        .parameters = {{"directional_efficiency", "1", "1", {0.0}, {0.5}},
                                       shape_parameter("backdrive_ratio", "1", "1", {0.0}, {2.0}, Spacing::linear),
-                                      law_at_both(shape_parameter("efficiency_inertia_share", "1", "1",
-                                                                  {1.0, RelativeTo::bears_only_inertia}, {1.0},
-                                                                  Spacing::linear))},
+                                      effect_at_both(shape_parameter("efficiency_inertia_share", "1", "1",
+                                                                     {1.0, RelativeTo::bears_only_inertia}, {1.0},
+                                                                     Spacing::linear))},
                        .families = {EffectFamily::load},
                        .signature = {SignatureAxis::load, SignatureAxis::velocity},
                        .parity = Parity::neither,
@@ -34,8 +34,8 @@ class DirectionalEfficiency final : public InstantEffect {
                        .is_dry_friction = true}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     auto const rotor = (1.0 - shape[1]) * scales.inertia * at.ddq;
     out.col(0) = friction_sign(at.dq, scales) * (at.motor_torque - shape[0] * (at.load_torque - rotor)).abs();
   }

@@ -63,7 +63,8 @@ class EncoderEccentricity final : public InstantEffect {
   }
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const& scales, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const>, JointScales const& scales,
+                EffectColumns out) const override {
     Scratch c(at.size()), s(at.size());
     cosine_sine(1.0, at.q, c, s);
     Scratch const gravity_slope = scales.gravity_sin * c - scales.gravity_cos * s;

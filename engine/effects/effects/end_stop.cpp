@@ -30,7 +30,7 @@ class EndStop final : public InstantEffect {
                             {"end_stop_damping", "N m s/rad", "N s/m", {0.0}},
                             shape_parameter("end_stop_position", "rad", "m", {-0.49, RelativeTo::position},
                                             {0.49, RelativeTo::position}, Spacing::linear),
-                            law_at_both(shape_parameter("end_stop_power", "1", "1", {1.0}, {2.0}, Spacing::linear))},
+                            effect_at_both(shape_parameter("end_stop_power", "1", "1", {1.0}, {2.0}, Spacing::linear))},
              .families = {EffectFamily::static_position},
              .signature = {SignatureAxis::position},
              .parity = Parity::neither,
@@ -44,8 +44,8 @@ class EndStop final : public InstantEffect {
  private:
   static constexpr double share_of_travel = 0.01;  // x_r
 
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     double const side = shape[0] >= scales.position_centre ? 1.0 : -1.0;
     double const unit = share_of_travel * scales.position_range;
     Scratch depth = (side * (at.q - shape[0])).max(0.0) / unit;

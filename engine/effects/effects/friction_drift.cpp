@@ -59,8 +59,8 @@ class FrictionDrift final : public InstantEffect {
              .is_dry_friction = true}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     Scratch const s = friction_sign(at.dq, scales), elapsed_s = at.time_s - scales.start_s;
     out.col(0) = elapsed_s * s;
     out.col(1) = elapsed_s * at.dq;

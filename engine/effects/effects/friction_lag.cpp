@@ -83,7 +83,7 @@ class FrictionLag final : public MemoryEffect {
                                             {20.0, RelativeTo::filter_time}, Spacing::logarithmic),
                             shape_parameter("friction_lag_speed", "rad/s", "m/s", {0.002, RelativeTo::peak_speed},
                                             {0.5, RelativeTo::peak_speed}, Spacing::logarithmic),
-                            law_at_upper(
+                            effect_at_upper(
                                 shape_parameter("friction_lag_dead_share", "1", "1", {0.0}, {1.0}, Spacing::linear))},
              .families = {EffectFamily::velocity_law, EffectFamily::reversal},
              .signature = {SignatureAxis::velocity, SignatureAxis::acceleration},

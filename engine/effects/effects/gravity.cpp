@@ -26,7 +26,7 @@ class Gravity final : public InstantEffect {
                        .code = "gravity_sin * sin(q) + gravity_cos * cos(q)"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const>, JointScales const&, EffectColumns out) const override {
     cosine_sine(1.0, at.q, out.col(1), out.col(0));
   }
 };

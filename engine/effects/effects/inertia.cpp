@@ -22,7 +22,7 @@ class Inertia final : public InstantEffect {
                        .code = "inertia * ddq"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const>, JointScales const&, EffectColumns out) const override {
     out.col(0) = at.ddq;
   }
 };

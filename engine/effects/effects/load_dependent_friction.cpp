@@ -20,29 +20,30 @@ namespace {
 class LoadDependentFriction final : public InstantEffect {
  public:
   LoadDependentFriction()
-      : InstantEffect(
-            {.name = "load_dependent_friction",
-             .title = "dry friction in proportion to the load",
-             .equation = "s mu (sqrt(l^2 + p^2) - p), l = tau_load - (1 - k) J ddq",
-             .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3; Palmgren 1959 (preload)",
-             .separated_by = "the same motion with another payload",
-             .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}},
-                            law_at_both(shape_parameter("load_friction_inertia_share", "1", "1",
-                                                        {1.0, RelativeTo::bears_only_inertia}, {1.0}, Spacing::linear)),
-                            law_at_upper(none_at_lower(shape_parameter("load_friction_preload", "N m", "N", {0.0},
-                                                                       {1.0, RelativeTo::torque}, Spacing::linear)))},
-             .families = {EffectFamily::load},
-             .signature = {SignatureAxis::load, SignatureAxis::velocity},
-             .parity = Parity::odd,
-             .needs_baseline = true,
-             .is_dry_friction = true,
-             .code = "friction_sign * load_dependent_friction "
-                     "* (sqrt(pow(load - (1 - load_friction_inertia_share) * baseline_inertia * ddq, 2) "
-                     "+ pow(load_friction_preload, 2)) - load_friction_preload)"}) {}
+      : InstantEffect({.name = "load_dependent_friction",
+                       .title = "dry friction in proportion to the load",
+                       .equation = "s mu (sqrt(l^2 + p^2) - p), l = tau_load - (1 - k) J ddq",
+                       .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3; Palmgren 1959 (preload)",
+                       .separated_by = "the same motion with another payload",
+                       .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}},
+                                      effect_at_both(shape_parameter("load_friction_inertia_share", "1", "1",
+                                                                     {1.0, RelativeTo::bears_only_inertia}, {1.0},
+                                                                     Spacing::linear)),
+                                      effect_at_upper(
+                                          none_at_lower(shape_parameter("load_friction_preload", "N m", "N", {0.0},
+                                                                        {1.0, RelativeTo::torque}, Spacing::linear)))},
+                       .families = {EffectFamily::load},
+                       .signature = {SignatureAxis::load, SignatureAxis::velocity},
+                       .parity = Parity::odd,
+                       .needs_baseline = true,
+                       .is_dry_friction = true,
+                       .code = "friction_sign * load_dependent_friction "
+                               "* (sqrt(pow(load - (1 - load_friction_inertia_share) * baseline_inertia * ddq, 2) "
+                               "+ pow(load_friction_preload, 2)) - load_friction_preload)"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     double const preload = shape[1];
     Scratch const load = at.load_torque - (1.0 - shape[0]) * scales.inertia * at.ddq;
     out.col(0) = friction_sign(at.dq, scales) * ((load.square() + preload * preload).sqrt() - preload);

@@ -21,7 +21,7 @@ class Offset final : public InstantEffect {
                        .code = "offset"}) {}
 
  private:
-  void law(JointStates const&, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const&, std::span<double const>, JointScales const&, EffectColumns out) const override {
     out.col(0) = 1.0;
   }
 };

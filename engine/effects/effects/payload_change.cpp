@@ -33,8 +33,8 @@ class PayloadChange final : public InstantEffect {
              .parity = Parity::even}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     auto const carried = is_after(at.time_s, shape[0]);
     out.col(0) = carried * at.ddq;
     if (scales.joint == JointKind::prismatic) {

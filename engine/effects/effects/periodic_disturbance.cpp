@@ -33,8 +33,8 @@ class PeriodicDisturbance final : public InstantEffect {
              .parity = Parity::even}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     Scratch const elapsed_s = at.time_s - scales.start_s;
     cosine_sine(2.0 * std::numbers::pi * shape[0], elapsed_s, out.col(1), out.col(0));
   }

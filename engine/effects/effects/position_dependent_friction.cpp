@@ -30,9 +30,9 @@ class PositionDependentFriction final : public InstantEffect {
                    {1.0, RelativeTo::coulomb_per_range}},
                   {"position_friction_cos", "N m", "N", {-0.5, RelativeTo::coulomb}, {0.5, RelativeTo::coulomb}},
                   {"position_friction_sin", "N m", "N", {-0.5, RelativeTo::coulomb}, {0.5, RelativeTo::coulomb}},
-                  law_at_lower(shape_parameter("position_friction_order", "1/rad", "1/m",
-                                               {0.5, RelativeTo::lowest_order}, {8.0, RelativeTo::lowest_order},
-                                               Spacing::logarithmic))},
+                  effect_at_lower(shape_parameter("position_friction_order", "1/rad", "1/m",
+                                                  {0.5, RelativeTo::lowest_order}, {8.0, RelativeTo::lowest_order},
+                                                  Spacing::logarithmic))},
              .families = {EffectFamily::static_position, EffectFamily::load},
              .signature = {SignatureAxis::position, SignatureAxis::velocity},
              .parity = Parity::odd,
@@ -43,8 +43,8 @@ class PositionDependentFriction final : public InstantEffect {
                      "+ position_friction_sin * sin(position_friction_order * q))"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     Scratch const s = friction_sign(at.dq, scales);
     cosine_sine(shape[0], at.q, out.col(1), out.col(2));
     out.col(0) = s * at.q;

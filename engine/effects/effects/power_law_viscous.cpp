@@ -26,8 +26,8 @@ class PowerLawViscous final : public InstantEffect {
                        .source = "Waiboer, Aarts, Jonker 2005",
                        .separated_by = "speeds spaced logarithmically, from creep to the fastest",
                        .parameters = {{"power_law_viscous", "N m (s/rad)^alpha", "N (s/m)^alpha", {0.0}},
-                                      law_at_both(shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0},
-                                                                  Spacing::linear))},
+                                      effect_at_both(shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0},
+                                                                     Spacing::linear))},
                        .families = {EffectFamily::velocity_law, EffectFamily::reversal},
                        .signature = {SignatureAxis::velocity},
                        .parity = Parity::odd,
@@ -39,7 +39,8 @@ class PowerLawViscous final : public InstantEffect {
   }
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const&,
+                EffectColumns out) const override {
     auto grown = out.col(0);
     grown = at.dq;
     power_of_size(grown, shape[0]);

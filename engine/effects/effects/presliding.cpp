@@ -2,7 +2,7 @@
 // each reversal instead of at once.
 //
 // Equation   tau = F (z - s) + sigma_1 dz/dt D; dz/dx = (1 - z / s) / D while x moves along s;
-//            s = sign(dq) weighted by the Coulomb levels of the baseline (Dahl's law; F near the Coulomb level)
+//            s = sign(dq) weighted by the Coulomb levels of the baseline (Dahl's model; F near the Coulomb level)
 // Memory     z, carried over the distance by the exact exponential, so no step of time is too long
 // Parameters presliding F >= 0 [N m; N]: the share of the Coulomb friction that builds up this way;
 //            presliding_damping sigma_1 >= 0 [N m s/rad; N s/m]; presliding_distance D = Fc / sigma_0 [rad; m]

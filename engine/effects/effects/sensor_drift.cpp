@@ -34,8 +34,8 @@ class SensorDrift final : public InstantEffect {
              .acts_on = ActsOn::recorded_torque}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     out.col(0) = at.time_s - scales.start_s;
     out.col(1) = is_after(at.time_s, shape[0]);
   }

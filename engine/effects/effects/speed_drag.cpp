@@ -28,7 +28,7 @@ class SpeedDrag final : public InstantEffect {
              .code = "quadratic_drag * dq * fabs(dq) + cubic_drag * dq * dq * dq"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const>, JointScales const&, EffectColumns out) const override {
     out.col(0) = at.dq * at.dq.abs();
     out.col(1) = at.dq * at.dq * at.dq;
   }

@@ -42,7 +42,8 @@ class Spring final : public InstantEffect {
              .plain_code = "spring * q"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const&,
+                EffectColumns out) const override {
     out.col(0) = at.q;
     if (shape.empty()) return;
     Scratch const x = at.q - shape[1];

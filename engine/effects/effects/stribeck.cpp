@@ -25,7 +25,7 @@ class Stribeck final : public InstantEffect {
              .parameters = {{"stribeck", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
                             shape_parameter("stribeck_speed", "rad/s", "m/s", {0.002, RelativeTo::peak_speed},
                                             {0.2, RelativeTo::peak_speed}, Spacing::logarithmic),
-                            law_at_upper(
+                            effect_at_upper(
                                 shape_parameter("stribeck_exponent", "1", "1", {0.5}, {2.0}, Spacing::linear))},
              .families = {EffectFamily::reversal, EffectFamily::velocity_law},
              .signature = {SignatureAxis::velocity, SignatureAxis::since_velocity_reversal},
@@ -34,8 +34,8 @@ class Stribeck final : public InstantEffect {
              .code = "friction_sign * stribeck * exp(-pow(fabs(dq) / stribeck_speed, stribeck_exponent))"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     auto faded = out.col(0);
     faded = at.dq / shape[0];
     power_of_size(faded, shape[1]);

@@ -52,7 +52,7 @@ class TorqueConstant final : public InstantEffect {
     return torque;
   }
 
-  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const>, JointScales const&, EffectColumns out) const override {
     out.col(0) = at.motor_torque * at.motor_torque * at.motor_torque;
   }
 };

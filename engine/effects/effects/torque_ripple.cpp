@@ -30,7 +30,8 @@ class TorqueRipple final : public InstantEffect {
              .needs_baseline = true}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const&,
+                EffectColumns out) const override {
     cosine_sine(shape[0], at.q, out.col(0), out.col(1));
     out.col(0) *= at.motor_torque;
     out.col(1) *= at.motor_torque;

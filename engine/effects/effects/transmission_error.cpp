@@ -41,8 +41,8 @@ class TransmissionError final : public InstantEffect {
              .needs_baseline = true}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
-           LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                EffectColumns out) const override {
     double const n = shape[0];
     Scratch c(at.size()), s(at.size()), once_c(at.size()), once_s(at.size());
     cosine_sine(n, at.q, c, s);

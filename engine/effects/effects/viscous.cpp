@@ -21,7 +21,7 @@ class Viscous final : public InstantEffect {
                        .code = "viscous * dq"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void evaluate(JointStates const& at, std::span<double const>, JointScales const&, EffectColumns out) const override {
     out.col(0) = at.dq;
   }
 };

@@ -60,8 +60,8 @@ ArmModel::ArmModel(SerialChain chain, ArmTerms const& terms, Section const& mode
       columns_.push_back(std::move(column));
     }
   }
-  first_law_ = std::ssize(columns_);
-  add_law_columns();
+  first_effect_ = std::ssize(columns_);
+  add_effect_columns();
   for (auto const& payload : terms.payloads) payloads_.push_back(payload_columns(chain_, base_, payload));
   add_payload_columns();
   if (terms.drive_gains) add_gain_columns();
@@ -100,47 +100,47 @@ Motion ArmModel::motor_motion(std::vector<Motion> const& motion, std::size_t mot
   return turned;
 }
 
-ArmModel ArmModel::with_laws(std::vector<HeldLaw> laws) const {
+ArmModel ArmModel::with_effects(std::vector<HeldEffect> effects) const {
   ArmTerms terms = terms_;
-  terms.laws = std::move(laws);
+  terms.effects = std::move(effects);
   return {chain_, terms, Section{"model", {}, {}}};
 }
 
-void ArmModel::add_law_columns() {
-  for (auto const& law : terms_.laws)
-    for (std::size_t k = 0; k < law.effect->n_linear(); ++k) {
-      auto const& parameter = law.effect->parameters()[k];
-      RegressorColumn column{fmt::format("{}_{}", parameter.name, law.joint + 1),
-                             parameter.unit_for(chain_.joints[law.joint].kind)};
+void ArmModel::add_effect_columns() {
+  for (auto const& effect : terms_.effects)
+    for (std::size_t k = 0; k < effect.effect->n_linear(); ++k) {
+      auto const& parameter = effect.effect->parameters()[k];
+      RegressorColumn column{fmt::format("{}_{}", parameter.name, effect.joint + 1),
+                             parameter.unit_for(chain_.joints[effect.joint].kind)};
       column.needs_velocity = true;
-      for (std::size_t const row : joints_of_motor(law.joint)) own_[row].push_back(std::ssize(columns_));
+      for (std::size_t const row : joints_of_motor(effect.joint)) own_[row].push_back(std::ssize(columns_));
       columns_.push_back(std::move(column));
     }
 }
 
-std::vector<Eigen::MatrixXd> ArmModel::law_columns(HeldLaw const& law, std::vector<Motion> const& motion,
-                                                   std::vector<Eigen::MatrixXd> const& rows) const {
-  bool const is_coupled = chain_.is_coupled(static_cast<Eigen::Index>(law.joint));
-  Motion const moved = is_coupled ? motor_motion(motion, law.joint) : motion[law.joint];
-  EffectInput input{moved, law.scales};
+std::vector<Eigen::MatrixXd> ArmModel::effect_columns(HeldEffect const& held, std::vector<Motion> const& motion,
+                                                      std::vector<Eigen::MatrixXd> const& rows) const {
+  bool const is_coupled = chain_.is_coupled(static_cast<Eigen::Index>(held.joint));
+  Motion const moved = is_coupled ? motor_motion(motion, held.joint) : motion[held.joint];
+  EffectInput input{moved, held.scales};
   Eigen::VectorXd load, all;
-  if (law.effect->needs_baseline()) {
-    auto const& own = own_[law.joint];
-    auto const count = std::lower_bound(own.begin(), own.end(), first_law_) - own.begin();
+  if (held.effect->needs_baseline()) {
+    auto const& own = own_[held.joint];
+    auto const count = std::lower_bound(own.begin(), own.end(), first_effect_) - own.begin();
     Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
-    for (Eigen::Index k = 0; k < count && law.baseline.size() > 0; ++k)
-      values[k] = law.baseline[own[static_cast<std::size_t>(k)]];
-    auto const rigid = std::ssize(rigid_parameters(law.joint));
-    load = rows[law.joint].leftCols(rigid) * values.head(rigid);
-    all = rows[law.joint].leftCols(count) * values;
+    for (Eigen::Index k = 0; k < count && held.baseline.size() > 0; ++k)
+      values[k] = held.baseline[own[static_cast<std::size_t>(k)]];
+    auto const rigid = std::ssize(rigid_parameters(held.joint));
+    load = rows[held.joint].leftCols(rigid) * values.head(rigid);
+    all = rows[held.joint].leftCols(count) * values;
     auto const n = static_cast<std::size_t>(load.size());
     input.load_torque = {load.data(), n};
     input.model_torque = {all.data(), n};
   }
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(moved.q.size(), static_cast<Eigen::Index>(law.effect->n_linear()));
-  if (law.effect->takes_shape(law.shape.size())) law.effect->columns(input, law.shape, columns);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(moved.q.size(), static_cast<Eigen::Index>(held.effect->n_linear()));
+  if (held.effect->takes_shape(held.shape.size())) held.effect->columns(input, held.shape, columns);
   std::vector<Eigen::MatrixXd> of_joints(joints());
-  for (std::size_t const j : joints_of_motor(law.joint)) of_joints[j] = turns(law.joint, j) * columns;
+  for (std::size_t const j : joints_of_motor(held.joint)) of_joints[j] = turns(held.joint, j) * columns;
   return of_joints;
 }
 
@@ -203,14 +203,15 @@ std::string ArmModel::torque_unit(std::size_t joint) const {
 
 std::string ArmModel::equation() const {
   std::string text = "tau = Phi(q, dq, ddq) chi";
-  std::vector<std::string> laws;
+  std::vector<std::string> effects;
   for (auto const& friction : friction_) {
     std::string const own = friction ? friction->equation() : "=";
-    laws.push_back(own.substr(own.find('=') + 1));
+    effects.push_back(own.substr(own.find('=') + 1));
   }
-  if (std::all_of(laws.begin(), laws.end(), [](auto const& law) { return law.empty(); })) return text;
-  bool const are_alike = std::all_of(laws.begin(), laws.end(), [&](auto const& law) { return law == laws.front(); });
-  return text + " +" + (are_alike ? laws.front() + " in each joint" : " friction of each joint");
+  if (std::all_of(effects.begin(), effects.end(), [](auto const& effect) { return effect.empty(); })) return text;
+  bool const are_alike =
+      std::all_of(effects.begin(), effects.end(), [&](auto const& effect) { return effect == effects.front(); });
+  return text + " +" + (are_alike ? effects.front() + " in each joint" : " friction of each joint");
 }
 
 void ArmModel::fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const {
@@ -274,8 +275,8 @@ std::vector<Eigen::MatrixXd> ArmModel::rows(std::vector<Motion> const& motion,
       places[j] += columns.cols();
     }
   }
-  for (auto const& law : terms_.laws) {
-    auto const columns = law_columns(law, motion, rows);
+  for (auto const& effect : terms_.effects) {
+    auto const columns = effect_columns(effect, motion, rows);
     for (std::size_t j = 0; j < joints(); ++j) {
       if (columns[j].size() == 0) continue;
       rows[j].middleCols(places[j], columns[j].cols()) = columns[j];

@@ -27,7 +27,7 @@
 namespace torquescope {
 
 // an effect of one joint whose shape is held: its torque is linear in what is left
-struct HeldLaw {
+struct HeldEffect {
   Effect const* effect = nullptr;
   std::size_t joint = 0;
   std::vector<double> shape{};  // n_shape(); empty: not yet known
@@ -44,7 +44,7 @@ struct ArmTerms {
   double velocity_deadband = 0.0;
   std::vector<Payload> payloads{};
   bool drive_gains = false;
-  std::vector<HeldLaw> laws{};
+  std::vector<HeldEffect> effects{};
 };
 
 class ArmModel {
@@ -81,12 +81,12 @@ class ArmModel {
   // [N] of the errors of the gains; empty where gains are no parameters
   std::vector<Eigen::Index> const& gain_columns() const { return gains_; }
   std::vector<PayloadColumns> const& payloads() const { return payloads_; }
-  std::vector<HeldLaw> const& laws() const { return terms_.laws; }
+  std::vector<HeldEffect> const& effects() const { return terms_.effects; }
   // the same arm with these effects in place of its own
-  ArmModel with_laws(std::vector<HeldLaw> laws) const;
+  ArmModel with_effects(std::vector<HeldEffect> effects) const;
   // [N] n x n_linear of an effect as joints feel it, empty where none does, zero of an unknown shape; rows: as rows()
-  std::vector<Eigen::MatrixXd> law_columns(HeldLaw const& law, std::vector<Motion> const& motion,
-                                           std::vector<Eigen::MatrixXd> const& rows) const;
+  std::vector<Eigen::MatrixXd> effect_columns(HeldEffect const& held, std::vector<Motion> const& motion,
+                                              std::vector<Eigen::MatrixXd> const& rows) const;
 
   // of each joint the columns of its own parameters, n x parameters_of(joint); one motion a joint, equal lengths, with
   // torques if gains are parameters. payload: which one the arm carries
@@ -95,7 +95,7 @@ class ArmModel {
   Eigen::VectorXd known_torque(std::size_t joint, Eigen::MatrixXd const& rows, std::size_t payload) const;
 
  private:
-  void add_law_columns();
+  void add_effect_columns();
   void add_payload_columns();
   void add_gain_columns();
   void fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const;
@@ -112,7 +112,7 @@ class ArmModel {
   std::vector<std::optional<Regressor>> friction_;
   std::vector<PayloadColumns> payloads_;
   std::vector<Eigen::Index> gains_;
-  Eigen::Index first_law_ = 0;  // of the columns: base parameters and friction stand before it
+  Eigen::Index first_effect_ = 0;  // of the columns: base parameters and friction stand before it
   std::vector<RegressorColumn> columns_;
   std::vector<std::vector<Eigen::Index>> own_;
 };

@@ -6,8 +6,8 @@
 //            s_t = phi_t psi_t, the row's part of the normal equations
 // Lags       Andrews: L = 1.1447 (a n)^(1/3) - 1 with a from a first-order autoregression of each column of s; never
 //            across the border of two recordings; L = 0 is White's heteroscedasticity-consistent covariance
-// Intervals  critical_value(L, n) replaces 1.96: the fixed-b law of a Bartlett t statistic, b = (L + 1) / n, because
-//            a bandwidth that is not small against n makes the error itself uncertain
+// Intervals  critical_value(L, n) replaces 1.96: the fixed-b distribution of a Bartlett t statistic, b = (L + 1) / n,
+//            because a bandwidth that is not small against n makes the error itself uncertain
 // Coverage   of 95 % intervals, 400 draws of 2000 samples, the worst of the seed's four parameters, for noise with
 //            rho = 0, 0.5, 0.9, 0.98: 0.95, 0.94, 0.93, 0.89; naive intervals: 0.95, 0.77, 0.45, 0.27
 // Arms       scores of an instant add up; 0 without rows (Datta, Du 2012, 10.17016/ifdp.2012.1060); hac_bias.hpp

@@ -9,7 +9,7 @@
 // Measured   47 parameters, 970 instants: factors 1.17 to 1.26, where n / (n - R) is 1.05
 //            (tests/science/studies/arm_coverage.cpp)
 // Threads    free function
-// Source     bias under a reference law: Bell, McCaffrey 2002, Survey Methodology; Imbens, Kolesar 2016,
+// Source     bias under a reference distribution: Bell, McCaffrey 2002, Survey Methodology; Imbens, Kolesar 2016,
 //            doi:10.1162/REST_a_00552 (of clusters; here of the Bartlett kernel)
 
 #include <Eigen/Core>

@@ -16,7 +16,7 @@ namespace {
 constexpr Eigen::Index most_rows = 2048;  // what the errors of a few parameters need; a check must not cost a fit
 
 // torque of one unit of each linear parameter of a term
-Eigen::VectorXd law(Effect const& term, JointState const& at) {
+Eigen::VectorXd torque_of(Effect const& term, JointState const& at) {
   auto const n = static_cast<Eigen::Index>(term.n_linear());
   Eigen::VectorXd torque(n);
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -42,8 +42,8 @@ bool tells_unit(Effect const& term) {
   Eigen::MatrixXd before(n, 3), after(n, 3);
   for (std::size_t i = 0; i < places.size(); ++i) {
     JointState const at{.q = places[i], .dq = 1.0 + places[i], .ddq = 2.0 - places[i]};
-    before.col(static_cast<Eigen::Index>(i)) = law(term, at);
-    after.col(static_cast<Eigen::Index>(i)) = law(term, scaled(at, factor));
+    before.col(static_cast<Eigen::Index>(i)) = torque_of(term, at);
+    after.col(static_cast<Eigen::Index>(i)) = torque_of(term, scaled(at, factor));
   }
   for (Eigen::Index k = 0; k < n; ++k) {
     double const length = before.row(k).squaredNorm();
@@ -100,7 +100,7 @@ class Trials {
     for (std::size_t i = 0; i < at_.size(); ++i) {
       Eigen::Index column = fixed_.cols();
       for (auto const* term : telling_) {
-        Eigen::VectorXd const torque = law(*term, scaled(at_[i], factor));
+        Eigen::VectorXd const torque = torque_of(*term, scaled(at_[i], factor));
         phi.row(static_cast<Eigen::Index>(i)).segment(column, torque.size()) = torque.transpose();
         column += torque.size();
       }

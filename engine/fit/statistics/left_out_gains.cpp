@@ -60,10 +60,12 @@ std::vector<Eigen::MatrixXd> LeftOutGains::of_each(FoldProducts const& all, std:
   Eigen::Index const m = folds_.empty() ? 0 : folds_.front().fit.cols();
   std::vector<Eigen::MatrixXd> gains(own.size(), Eigen::MatrixXd(static_cast<Eigen::Index>(folds_.size()), m));
   for (std::size_t f = 0; f < folds_.size(); ++f) {
-    auto const laws = beside(f, all, own);
+    auto const effects = beside(f, all, own);
     for (std::size_t i = 0; i < own.size(); ++i)
       gains[i].row(static_cast<Eigen::Index>(f)) =
-          (laws[i].fit.array() * (2.0 * laws[i].left - laws[i].square * laws[i].fit).array()).colwise().sum();
+          (effects[i].fit.array() * (2.0 * effects[i].left - effects[i].square * effects[i].fit).array())
+              .colwise()
+              .sum();
   }
   return gains;
 }
@@ -78,8 +80,8 @@ Eigen::MatrixXd LeftOutGains::form(FoldProducts const& cross, FoldProducts const
   FoldProducts const all = side_by_side(cross, products);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(products.whole.cols(), products.whole.cols());
   for (std::size_t f = 0; f < folds_.size(); ++f) {
-    Beside const law = beside(f, all, {&own, 1}).front();
-    sum += law.fit.transpose() * (2.0 * law.left - law.square * law.fit);
+    Beside const effect = beside(f, all, {&own, 1}).front();
+    sum += effect.fit.transpose() * (2.0 * effect.left - effect.square * effect.fit);
   }
   return sum;
 }

@@ -21,7 +21,7 @@ struct ToldPart {
 };
 
 // A spectrum has one sign, so that its regions grow together over most of it: told is the stretch of one that tells
-// most. Any law of the motion leaves most where the torque has most, and noise is everywhere: what is beyond the
+// most. Any effect of the motion leaves most where the torque has most, and noise is everywhere: what is beyond the
 // replicates must surprise for the stretch's share of the torque and for its width
 ToldPart told_stretch(MapAxis const& axis, MismatchRegion const& region) {
   std::vector<MapCell> cells;

@@ -130,7 +130,7 @@ Eigen::RowVectorXd strongest_window(Eigen::MatrixXd const& energies) {
   return beyond.colwise().maxCoeff();
 }
 
-// of the torque itself: any law of the motion leaves most where most of the motion is
+// of the torque itself: any effect of the motion leaves most where most of the motion is
 void set_torque_shares(std::vector<MapCell>& cells, MismatchRows const& rows, WaveGrid const& grid,
                        std::vector<WaveBand> const& bands) {
   MismatchRows alone;

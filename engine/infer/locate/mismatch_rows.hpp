@@ -1,7 +1,7 @@
 #pragma once
 // A recording and replicates of its model on the same rows: what maps and curves are drawn from.
 //
-// Residual   of the model on the rows of a decision (all_rows/strip.hpp)
+// Residual   of the model on the rows of a decision (decision/strip.hpp)
 // Shapes     n rows in time order, M replicates: 8 n M bytes
 // Units      SI
 // Threads    plain record

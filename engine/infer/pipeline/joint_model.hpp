@@ -7,7 +7,7 @@
 //            so that the model stays linear in its parameters and is the same for the recording and its replicates
 // Units      SI
 // Threads    const object, any number of threads
-// Source     engine/infer/all_rows/THEORY.md, The rules
+// Source     engine/infer/decision/THEORY.md, The rules
 
 #include <Eigen/Core>
 #include <cstddef>

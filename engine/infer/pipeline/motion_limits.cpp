@@ -12,8 +12,8 @@
 namespace torquescope {
 namespace {
 
-bool remembers_reversals(Effect const& law) {
-  auto const& axes = law.signature();
+bool remembers_reversals(Effect const& effect) {
+  auto const& axes = effect.signature();
   return std::any_of(axes.begin(), axes.end(), [](SignatureAxis axis) {
     return axis == SignatureAxis::since_velocity_reversal || axis == SignatureAxis::since_torque_reversal;
   });
@@ -46,10 +46,11 @@ bool moves_both_ways(Eigen::Ref<Eigen::VectorXd const> const& velocity) {
   return static_cast<double>(std::min(forward, n - forward)) >= fifth * static_cast<double>(n);
 }
 
-bool closes(MotionLimits const& limits, Effect const& law) {
-  auto const& families = law.families();
+bool closes(MotionLimits const& limits, Effect const& effect) {
+  auto const& families = effect.families();
   bool const is_of_velocity = std::find(families.begin(), families.end(), EffectFamily::velocity_law) != families.end();
-  bool const needs_reversals = law.family() == EffectFamily::reversal && remembers_reversals(law) && !is_of_velocity;
+  bool const needs_reversals =
+      effect.family() == EffectFamily::reversal && remembers_reversals(effect) && !is_of_velocity;
   if (limits.has_one_direction && needs_reversals) return true;
   return limits.has_one_speed && is_of_velocity;
 }

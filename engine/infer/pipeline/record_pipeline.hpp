@@ -5,7 +5,7 @@
 // Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column, but
 //            for parameters that are at a bound (joint_fit.hpp)
 // Use        checks of a recording, a simulator's share, other joints that load it. A decision takes all samples
-//            (all_rows/strip.hpp)
+//            (decision/strip.hpp)
 // Shapes     motion: n samples at the full rate; rows, torque, columns, residual: the samples that survive decimation,
 //            edges and mask, in time order
 // Errors     constructor: Error 78, 65 as ParallelFilter; process: 65 when the rows cannot tell the parameters apart

@@ -31,8 +31,9 @@ double first_velocity(Recording const& recording) {
   return std::abs(slope) * static_cast<double>(n - 1) <= recording.rows.encoder_step ? 0.0 : slope * recording.rate_hz;
 }
 
-// Whether a loop of our own is the last resort: the law is that of a reference, and a joint that runs away even so is
-// what the torque cannot be right for. Of an arm's joint the law is known less well: what the others need is fitted
+// Whether a loop of our own is the last resort: the controller is that of a reference, and a joint that runs away even
+// so is what the torque cannot be right for. Of an arm's joint the controller is known less well: what the others need
+// is fitted
 bool is_last_resort(Recording const& recording) {
   bool const is_of_arm = recording.given != nullptr;
   return recording.reference.size() == recording.position.size() && !is_of_arm;
@@ -124,7 +125,7 @@ RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint
   double const bandwidth_hz =
       std::min(bandwidth_share * recording.rate_hz, widest_of_encoder(recording, joint.inertia));
   double const slow = slowest_velocity(recording, result.track.reference, result.loop.encoder_step, filter);
-  result.loop.law = tracking_law(joint, bandwidth_hz, {recording.rate_hz, slow});
+  result.loop.controller = tracking_controller(joint, bandwidth_hz, {recording.rate_hz, slow});
   result.loop.torque_noise = white(white_noise(recording.torque));
   return result;
 }
@@ -136,7 +137,7 @@ RecordedLoop torque_fed_loop(Recording const& recording, double inertia, FilterO
   result.track.fed_forward = smoothed(recording.torque, recording.rate_hz, filter);
   double const widest = bandwidth_share * recording.rate_hz;
   double const bandwidth_hz = filter.cutoff_hz > 0.0 ? std::min(tenth * filter.cutoff_hz, widest) : widest;
-  result.loop.law = error_law(inertia, bandwidth_hz, recording.rate_hz);
+  result.loop.controller = error_controller(inertia, bandwidth_hz, recording.rate_hz);
   result.loop.sees_motion = true;
   return result;
 }

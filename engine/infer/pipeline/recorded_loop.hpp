@@ -11,7 +11,7 @@
 #include "engine/data/motion.hpp"
 #include "engine/data/recording.hpp"
 #include "engine/simulate/replicate_simulator.hpp"
-#include "engine/simulate/tracking_law.hpp"
+#include "engine/simulate/tracking_controller.hpp"
 
 namespace torquescope {
 
@@ -24,8 +24,8 @@ struct RecordedLoop {
 RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter);
 
 // The joint is driven by the recorded torque, low-passed by `filter`, and led slowly by errors of the smoothed motion:
-// so its friction turns round by itself, as it did in the recording, and not where a smooth motion says. The law sees
-// the position before the encoder's steps
+// so its friction turns round by itself, as it did in the recording, and not where a smooth motion says. The controller
+// sees the position before the encoder's steps
 RecordedLoop torque_fed_loop(Recording const& recording, double inertia, FilterOptions const& filter);
 
 }  // namespace torquescope

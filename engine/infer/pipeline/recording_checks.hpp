@@ -2,8 +2,9 @@
 // What makes a diagnosis of a recording hopeless before it begins: the finding and the way out, no search.
 //
 // Rule       limits: METHOD.md, A first look. insufficient: the motion is too small. data fault: the torque
-//            channel is held too long, or has the wrong sign. What else a motion lacks closes laws (motion_limits.hpp)
-// Silence    "mostly one speed" is checked only when nothing was found: such a motion cannot show laws of the speed
+//            channel is held too long, or has the wrong sign. What else a motion lacks closes effects
+//            (motion_limits.hpp)
+// Silence    "mostly one speed" is checked only when nothing was found: such a motion cannot show effects of the speed
 // Units      as Excitation
 // Threads    free function
 

@@ -6,7 +6,7 @@
 //            up to what the filter carries over from rests and reversals, where `beyond` is bridged by a straight line
 // Bias       the joint's parameters carry the bias of noise, filter and held torque; the simulator's do not
 // Noise      the simulator's torque carries the noise of its motion; it counts as noise of the torque channel
-// Load       `beyond` passes the gear all the same: recording.gear_load, for laws that follow the load
+// Load       `beyond` passes the gear all the same: recording.gear_load, for effects that follow the load
 // Requires   recording.simulated_torque; the pipeline of that recording
 // Units      SI
 // Errors     as RecordPipeline

@@ -1,10 +1,10 @@
 #pragma once
-// What the decision on all samples (engine/infer/all_rows) found, as it stands in a result: plain numbers and words.
+// What the decision on all samples (engine/infer/decision) found, as it stands in a result: plain numbers and words.
 //
 // Errors     ||residual|| / ||torque|| over all rows of the filtered torque
 // Units      SI; shares are fractions of 1; NaN: not measured
 // Threads    plain records
-// Source     engine/infer/all_rows/THEORY.md; as JSON: workflows/results/diagnosis_json.hpp
+// Source     engine/infer/decision/THEORY.md; as JSON: workflows/results/diagnosis_json.hpp
 
 #include <cstddef>
 #include <limits>
@@ -19,7 +19,7 @@ struct DecisionAccount {
   struct Errors {
     double train = none, held_out = none, validation = none;
   };
-  struct Law {
+  struct Effect {
     std::string name{}, refusal{};
     std::vector<double> shape{};
     double gain = 0.0, level = 0.0, p = 1.0;  // D; D by chance; chance over the catalogue
@@ -34,7 +34,7 @@ struct DecisionAccount {
     double visible = none;
     std::string correction_axis{};
     double correction_gain = 0.0, correction_p = 1.0, correction_size = 0.0;
-    std::vector<Law> laws{};
+    std::vector<Effect> effects{};
   };
   struct Delay {
     double seconds = 0.0, deviation = 0.0, gain = 0.0, p = 1.0, size = 0.0;
@@ -76,7 +76,7 @@ struct DecisionAccount {
   double quiet_share = 0.0, set_aside_share = 0.0;
   Errors baseline{}, final{};
   std::vector<Step> steps{};
-  std::vector<Law> accepted{};
+  std::vector<Effect> accepted{};
   Delay delay{};
   Loop loop{};
 };

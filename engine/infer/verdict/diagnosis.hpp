@@ -6,7 +6,7 @@
 // relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated moving rows (reversal_mask.hpp), or all but rests
 //            where `rows` says so
 // Threads    plain records
-// Source     all_rows/THEORY.md, Adequacy; as JSON: workflows/results/diagnosis_json.hpp; as HDF5:
+// Source     decision/THEORY.md, Adequacy; as JSON: workflows/results/diagnosis_json.hpp; as HDF5:
 //            store/RESULT_FORMAT.md
 
 #include <Eigen/Core>
@@ -184,8 +184,8 @@ struct HeldOutTest {
   std::size_t blocks = 0;
 };
 
-// what laws took from the fitted baseline (JointScales); of results before 27 Nov 2026 unknown
-struct LawLevels {
+// what effects took from the fitted baseline (JointScales); of results before 27 Nov 2026 unknown
+struct EffectLevels {
   double forward = unknown, backward = unknown;  // friction_sign() of either direction
   double inertia = unknown;
 };
@@ -202,7 +202,7 @@ struct JointDiagnosis {
   std::vector<Candidate> candidates{};  // strongest first
   std::vector<NamedEffect> effects{};   // in the order of acceptance
   std::vector<ParameterEstimate> augmented{};
-  LawLevels law_levels{};
+  EffectLevels effect_levels{};
   double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
   double validation_torque_energy = unknown;  // of the rows that validation_relerr is of
   double floor_relerr = unknown;              // what a complete model would leave, validation recording (or training)
@@ -249,7 +249,7 @@ std::string which_joint(JointDiagnosis const& joint);
 // whether the rows that were looked at hold less than half of the residual's energy, in training or validation
 bool looks_at_less_than_half(JointDiagnosis const& joint);
 
-// of an arm: laws that act on several joints at once
+// of an arm: effects that act on several joints at once
 struct WholeArmDiagnosis {
   std::vector<NamedEffect> effects{};   // in the order of acceptance
   std::vector<Candidate> candidates{};  // strongest first
@@ -267,8 +267,8 @@ struct Diagnosis {
   double q = 0.05;
 };
 
-// of an arm, from those of its joints and the laws of the whole: a name counts as the whole answer only where no joint
-// is left with a riddle
+// of an arm, from those of its joints and the effects of the whole: a name counts as the whole answer only where no
+// joint is left with a riddle
 Verdict verdict_of_arm(std::vector<JointDiagnosis> const& joints, std::vector<NamedEffect> const& of_the_arm = {});
 
 }  // namespace torquescope

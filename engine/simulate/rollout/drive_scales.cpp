@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/simulate/rollout/drive_law.hpp"
+#include "engine/simulate/rollout/drive_effect.hpp"
 #include "engine/simulate/rollout/measured_drive.hpp"
 
 namespace torquescope {

@@ -1,8 +1,8 @@
 #pragma once
 // The controllers that a job may name, and how their gains come down to the numbers of a loop (loop_numbers.hpp).
 //
-// Forms      identified: a linear law found in the recording (simulate/controller_fit.hpp); p: kp e; pi; pd; pid;
-//            p_velocity: kv (kp e - v); p_pi: kv s + ki (integral of s), s = kp e - v, the cascade of drives;
+// Forms      identified: a linear controller found in the recording (simulate/controller_fit.hpp); p: kp e; pi; pd;
+//            pid; p_velocity: kv (kp e - v); p_pi: kv s + ki (integral of s), s = kp e - v, the cascade of drives;
 //            none: there is no controller, the recorded torque drives the joint
 // Gains      p_velocity, p_pi: kp 1/s, kv N m s/rad, ki N m/rad; the others N m/rad, N m/(rad s), N m s/rad
 // Threads    plain records, free functions

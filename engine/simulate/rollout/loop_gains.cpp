@@ -197,18 +197,18 @@ double loop_error(LoopNumbers const& numbers, std::size_t speed_samples, Rollout
   return share_left(track, answers);
 }
 
-double loop_error(LoopLaw const& law, RolloutTrack const& track) {
+double loop_error(LoopController const& by, RolloutTrack const& track) {
   std::vector<Eigen::VectorXd> answers;
   for (auto const& segment : track.segments) {
     Eigen::VectorXd const reference = track.reference.segment(segment.first, segment.samples);
-    Eigen::VectorXd const open = open_part(law, reference);
+    Eigen::VectorXd const open = open_part(by, reference);
     ReferenceSignal const signal(reference);
-    LaneController controller(law, segment.position, segment.velocity, track.rate_hz);
+    LaneController controller(by, segment.position, segment.velocity, track.rate_hz);
     answers.emplace_back(segment.samples);
     double read[replicate_lanes], command[replicate_lanes];
     for (Index k = 0; k < segment.samples; ++k) {
       std::fill_n(read, replicate_lanes, track.position[segment.first + k]);
-      controller.command(read, open[k], signal(k + law.shift), command);
+      controller.command(read, open[k], signal(k + by.shift), command);
       answers.back()[k] = command[0];
     }
   }

@@ -7,7 +7,7 @@
 // Error      of the whole loop: what it leaves of the recorded torque on all samples, as a share of its rms
 // Threads    free functions
 
-#include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/loop_controller.hpp"
 #include "engine/simulate/rollout/loop_form.hpp"
 #include "engine/simulate/rollout/track.hpp"
 
@@ -26,6 +26,6 @@ std::size_t speed_span(LoopForm form, LoopValues const& values, std::vector<Loop
 
 // the loop's own answer to the measured positions beside the recorded torque; NaN of one with an integral
 double loop_error(LoopNumbers const& numbers, std::size_t speed_samples, RolloutTrack const& track);
-double loop_error(LoopLaw const& law, RolloutTrack const& track);
+double loop_error(LoopController const& by, RolloutTrack const& track);
 
 }  // namespace torquescope

@@ -121,7 +121,7 @@ void roll_ticks(RolledJoints const& rolled, LaneLoops const& loops, TickInputs c
 // logged. read: the positions that the encoder shows; speed: of the joint; row: of the inputs
 void answer_tick(LaneLoops const& loops, TickInputs const& inputs, std::size_t row, double const* read,
                  double const* speed, LaneLoopState& loop, double* held, double* logged);
-// the same from a command on, where another law gave it
+// the same from a command on, where another controller gave it
 void pass_on_tick(LaneLoops const& loops, TickInputs const& inputs, std::size_t row, double const* command,
                   LaneLoopState& loop, double* held, double* logged);
 

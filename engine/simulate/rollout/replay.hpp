@@ -46,7 +46,7 @@ struct RecordingReplay {
   std::array<ChannelReplay, replay_channels> channels{};
   std::vector<bool> diverged{};  // each model
   std::string loop, loop_words;  // "given", "fitted", "identified", "approximated", "none"; a sentence
-  double loop_error = 0.0;       // of the loop's law on the measured positions; NaN: unknown
+  double loop_error = 0.0;       // of the loop's controller on the measured positions; NaN: unknown
   double horizon_s = 0.0;
 
   ChannelReplay const& channel(ReplayChannel which) const { return channels[static_cast<std::size_t>(which)]; }

@@ -53,7 +53,8 @@ RolloutTrial on_track(RolloutTrack const& track, RolloutTrial trial) {
 class Lanes {
  public:
   Lanes(RolloutTrack const& track, RolloutStructure const& structure, std::span<RolloutTrial const> trials)
-      : has_law_(track.law.has_value()), loops(track.tick_s(), structure.hold_ticks, structure.speed_samples) {
+      : has_controller_(track.controller.has_value()),
+        loops(track.tick_s(), structure.hold_ticks, structure.speed_samples) {
     std::vector<std::vector<std::vector<double>>> parameters(structure.effects.size());
     for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       used.push_back(on_track(track, trials[lane < trials.size() ? lane : 0]));
@@ -78,7 +79,7 @@ class Lanes {
     for (std::size_t lane = 0; lane < replicate_lanes; ++lane) braked.viscous[lane] += loops.back_emf[lane];
   }
 
-  bool is_fast() const { return makers.empty() && !has_law_; }
+  bool is_fast() const { return makers.empty() && !has_controller_; }
 
   void read_encoder(double* position) const {
     if (!loops.has_encoder) return;
@@ -89,7 +90,7 @@ class Lanes {
   }
 
  private:
-  bool has_law_;
+  bool has_controller_;
 
  public:
   LaneLoops loops;
@@ -115,7 +116,7 @@ TickSteps tick_steps(double tick_s, std::size_t steps) {
   return {step_s, steps, std::clamp<std::size_t>(static_cast<std::size_t>(longest_held_s / step_s), 1, steps)};
 }
 
-// one segment, tick by tick: effects, an identified law
+// one segment, tick by tick: effects, an identified controller
 class SlowSegment {
  public:
   SlowSegment(RolloutTrack const& track, TrackSegment const& segment, Lanes const& lanes)
@@ -125,13 +126,13 @@ class SlowSegment {
                                          : static_cast<double>(segment.first) / track.rate_hz),
         motion_(lanes.rolled.dry, lanes.makers, tick_steps(track.tick_s(), lanes.steps)) {
     for (auto const& effect : motion_.effects()) shifts_channels_ = shifts_channels_ || effect->shifts_channels();
-    if (!track.law) return;
-    law_.emplace(*track.law, segment.position, segment.velocity, track.rate_hz);
+    if (!track.controller) return;
+    controller_.emplace(*track.controller, segment.position, segment.velocity, track.rate_hz);
     Eigen::VectorXd const reference = track.reference.segment(segment.first, segment.samples);
-    open_ = open_part(*track.law, reference);
+    open_ = open_part(*track.controller, reference);
     ReferenceSignal const signal(reference);
     wanted_.resize(segment.samples);
-    for (Eigen::Index k = 0; k < segment.samples; ++k) wanted_[k] = signal(k + track.law->shift);
+    for (Eigen::Index k = 0; k < segment.samples; ++k) wanted_[k] = signal(k + track.controller->shift);
   }
 
   void roll(TickInputs const& inputs, std::size_t first_tick, std::size_t ticks, LaneState& state, LaneLoopState& loop,
@@ -166,11 +167,11 @@ class SlowSegment {
  private:
   void answer(TickInputs const& inputs, std::size_t first_tick, std::size_t row, double const* read,
               double const* speed, LaneLoopState& loop, double* held, double* logged) {
-    if (!law_) return answer_tick(lanes_.loops, inputs, row, read, speed, loop, held, logged);
-    // the law answers once a sample: it was found in samples
+    if (!controller_) return answer_tick(lanes_.loops, inputs, row, read, speed, loop, held, logged);
+    // the controller answers once a sample: it was found in samples
     std::size_t const tick = first_tick + row;
     auto const k = static_cast<Eigen::Index>(tick / track_.ticks_per_sample);
-    if (tick % track_.ticks_per_sample == 0) law_->command(read, open_[k], wanted_[k], command_);
+    if (tick % track_.ticks_per_sample == 0) controller_->command(read, open_[k], wanted_[k], command_);
     alignas(64) double whole[replicate_lanes];
     double const added = inputs.added != nullptr ? inputs.added[row] : 0.0;
     for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
@@ -202,7 +203,7 @@ class SlowSegment {
   double start_s_;  // by the recording's clock, as effects of the time see it
   LaneMotion motion_;
   bool shifts_channels_ = false;
-  std::optional<LaneController> law_{};
+  std::optional<LaneController> controller_{};
   Eigen::VectorXd open_{}, wanted_{};
   alignas(64) double motor_[replicate_lanes] = {}, command_[replicate_lanes] = {};
   double ones_[replicate_lanes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};

@@ -3,7 +3,7 @@
 //
 // Trial      one lane: a joint, its effects' parameters, its loop, and where it begins beside the measured state
 // Fast       a joint without effects in a loop of numbers stays in vector registers (loop_lanes.hpp); effects of the
-//            catalogue or an identified law are asked tick by tick, in all lanes: last digits differ then
+//            catalogue or an identified controller are asked tick by tick, in all lanes: last digits differ then
 // Diverged   a lane that leaves a hundred times the track's range, or is no number: NaN from then on
 // Units      SI of the joint's kind
 // Bits       of a trial: the same whatever stands beside it, on any number of threads and any instruction set

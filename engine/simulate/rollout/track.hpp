@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "engine/data/recording.hpp"
-#include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/loop_controller.hpp"
 #include "engine/simulate/rollout/track_known.hpp"
 
 namespace torquescope {
@@ -39,7 +39,7 @@ struct RolloutTrack {
   Eigen::VectorXd added, outside, enabled;
   std::vector<TrackSegment> segments;
   TrackKnown known{};
-  std::optional<LoopLaw> law{};  // found in this recording; none: the loop's numbers are the whole of it
+  std::optional<LoopController> controller{};  // found in this recording; none: the loop's numbers are the whole of it
 
   double tick_s() const { return 1.0 / (rate_hz * static_cast<double>(ticks_per_sample)); }
   Eigen::Index samples() const;  // of all segments

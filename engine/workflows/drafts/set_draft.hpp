@@ -4,7 +4,7 @@
 // Exact      one pattern a folder where it matches no other file and gives back each number; else one for each value of
 //            a quantity; else one for each file, to twelve; else a pattern that takes more, and how many more
 // Judged     about a fifth of the files, whole values of one quantity: an inner mass, length or other number, else a
-//            word; or a folder whose name says validate, test or unseen
+//            word; or a folder whose name says "validate", "test" or "unseen"
 // Threads    free function
 
 #include <filesystem>

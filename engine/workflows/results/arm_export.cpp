@@ -144,7 +144,7 @@ IdentifiedArm read_identified_arm(ResultReader const& reader) {
     auto const shapes = reader.texts("/robot/shapes");
     auto const values = reader.numbers("/robot/shape_values").values;
     for (std::size_t k = 0; k < std::min(shapes.size(), values.size()); ++k)
-      arm.law_words.push_back(fmt::format("{} = {:.6g}", shapes[k], values[k]));
+      arm.effect_words.push_back(fmt::format("{} = {:.6g}", shapes[k], values[k]));
   }
   arm.chain = chain;
   arm.has_limits = robot.has_limits;
@@ -220,7 +220,7 @@ ArmExport export_arm(IdentifiedArm const& arm, ArmEstimate const& estimate, std:
   std::vector<std::string> beside;
   for (Index k = base.size(); k < values.size(); ++k)
     beside.push_back(fmt::format("{} = {:.6g}", names[static_cast<std::size_t>(k)], values[k]));
-  beside.insert(beside.end(), arm.law_words.begin(), arm.law_words.end());
+  beside.insert(beside.end(), arm.effect_words.begin(), arm.effect_words.end());
   if (!beside.empty()) out.notes.push_back("Beside the links: " + listed(beside) + ".");
   for (auto const& writer : robot_writers())
     if (writer.name == format) out.text = writer.write(chain, out.notes);

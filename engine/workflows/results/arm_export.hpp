@@ -18,8 +18,8 @@ struct IdentifiedArm {
   SerialChain chain{};     // as the robot file had it when the arm was identified
   bool has_limits = true;  // no: an earlier version kept neither limits nor drives
   DriveInertias drives = DriveInertias::included;
-  std::vector<std::string> law_words{};  // "stribeck_speed_2 = 0.03": shapes of its effects
-  Eigen::MatrixXd information{};         // of all parameters: inverse of their covariance
+  std::vector<std::string> effect_words{};  // "stribeck_speed_2 = 0.03": shapes of its effects
+  Eigen::MatrixXd information{};            // of all parameters: inverse of their covariance
 };
 
 IdentifiedArm read_identified_arm(ResultReader const& reader);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "engine/diagnose/arms/law_shapes.hpp"
+#include "engine/diagnose/arms/effect_shapes.hpp"
 #include "engine/experiment/arm_findings.hpp"
 #include "engine/fit/problem/arm_accuracy.hpp"
 #include "engine/robot/gather_text.hpp"
@@ -52,13 +52,13 @@ std::vector<std::string> joint_names(SerialChain const& chain) {
 }
 
 // effects beside the rigid arm: their shapes; what is linear in them stands among the parameters
-void write_laws(ResultWriter& writer, ArmModel const& model) {
+void write_effects(ResultWriter& writer, ArmModel const& model) {
   std::vector<std::string> names;
   std::vector<double> values;
-  for (auto const& law : model.laws())
-    for (std::size_t k = 0; k < law.shape.size(); ++k) {
-      names.push_back(shape_name(law, k));
-      values.push_back(law.shape[k]);
+  for (auto const& effect : model.effects())
+    for (std::size_t k = 0; k < effect.shape.size(); ++k) {
+      names.push_back(shape_name(effect, k));
+      values.push_back(effect.shape[k]);
     }
   if (names.empty()) return;
   writer.texts("/robot/shapes", names,
@@ -77,7 +77,7 @@ void write_robot(ResultWriter& writer, ArmParts const& arm) {
     gathers.push_back(gather_text(base, k));
   }
   write_robot_tables(writer, chain);
-  write_laws(writer, arm.model);
+  write_effects(writer, arm.model);
   writer.attribute("/robot", "file", arm.robot_file);
   writer.attribute("/robot", "sha256", arm.sha256);
   write_names(writer, "/robot", "parameter", parameters);

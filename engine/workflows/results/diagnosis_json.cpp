@@ -105,19 +105,19 @@ Json explained_json(JointDiagnosis const& joint) {
           {"ci95", Json::array({json_number(joint.explained_low), json_number(joint.explained_high)})}};
 }
 
-Json decision_law_json(DecisionAccount::Law const& law) {
+Json decision_effect_json(DecisionAccount::Effect const& effect) {
   Json shape = Json::array();
-  for (double const one : law.shape) shape.push_back(json_number(one));
-  return {{"name", law.name},
-          {"refusal", law.refusal},
-          {"gain", json_number(law.gain)},
-          {"gain_by_chance", json_number(law.level)},
-          {"p", json_number(law.p)},
-          {"size", json_number(law.size)},
-          {"judged_before", json_number(law.judged_before)},
-          {"judged_after", json_number(law.judged_after)},
+  for (double const one : effect.shape) shape.push_back(json_number(one));
+  return {{"name", effect.name},
+          {"refusal", effect.refusal},
+          {"gain", json_number(effect.gain)},
+          {"gain_by_chance", json_number(effect.level)},
+          {"p", json_number(effect.p)},
+          {"size", json_number(effect.size)},
+          {"judged_before", json_number(effect.judged_before)},
+          {"judged_after", json_number(effect.judged_after)},
           {"shape", shape},
-          {"rivals", law.rivals}};
+          {"rivals", effect.rivals}};
 }
 
 Json decision_step_json(DecisionAccount::Step const& step) {
@@ -130,7 +130,7 @@ Json decision_step_json(DecisionAccount::Step const& step) {
             {"gain", json_number(step.correction_gain)},
             {"p", json_number(step.correction_p)},
             {"size", json_number(step.correction_size)}}},
-          {"laws", json_list(step.laws, decision_law_json)}};
+          {"laws", json_list(step.effects, decision_effect_json)}};
 }
 
 Json decision_json(DecisionAccount const& account) {
@@ -144,7 +144,7 @@ Json decision_json(DecisionAccount const& account) {
           {"set_aside_share", json_number(account.set_aside_share)},
           {"baseline", errors(account.baseline)},
           {"final", errors(account.final)},
-          {"accepted", json_list(account.accepted, decision_law_json)},
+          {"accepted", json_list(account.accepted, decision_effect_json)},
           {"delay",
            {{"seconds", json_number(account.delay.seconds)},
             {"deviation", json_number(account.delay.deviation)},

@@ -183,8 +183,8 @@ void read_joint_attributes(StoredObjects const& in, std::string const& group, Jo
   joint.explained_share = in.number(group, "explained_share");
   joint.explained_low = in.number(group, "explained_low");
   joint.explained_high = in.number(group, "explained_high");
-  joint.law_levels = {in.number(group, "friction_sign_forward"), in.number(group, "friction_sign_backward"),
-                      in.number(group, "baseline_inertia")};
+  joint.effect_levels = {in.number(group, "friction_sign_forward"), in.number(group, "friction_sign_backward"),
+                         in.number(group, "baseline_inertia")};
   joint.budget = {in.number(group, "budget_parameter_error"), in.number(group, "budget_missing_physics"),
                   in.number(group, "budget_unexplained"), in.number(group, "budget_noise")};
   joint.nuisances = in.texts(group, "nuisances");

@@ -1,7 +1,7 @@
 #pragma once
 // Reads the diagnosis of a result file back: what `show`, and `diagnose` of a finished job, print again.
 //
-// Law        read_diagnosis() of what write_diagnosis() wrote is the same diagnosis; the axis and unit of a map's
+// Effect        read_diagnosis() of what write_diagnosis() wrote is the same diagnosis; the axis and unit of a map's
 //            region come from its axis
 // Errors     those of ResultReader; 65 also when columns that belong together differ in length, or a word is unknown
 

@@ -223,9 +223,9 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "explained_share", joint.explained_share);
   writer.attribute(group, "explained_low", joint.explained_low);
   writer.attribute(group, "explained_high", joint.explained_high);
-  writer.attribute(group, "friction_sign_forward", joint.law_levels.forward);
-  writer.attribute(group, "friction_sign_backward", joint.law_levels.backward);
-  writer.attribute(group, "baseline_inertia", joint.law_levels.inertia);
+  writer.attribute(group, "friction_sign_forward", joint.effect_levels.forward);
+  writer.attribute(group, "friction_sign_backward", joint.effect_levels.backward);
+  writer.attribute(group, "baseline_inertia", joint.effect_levels.inertia);
   writer.attribute(group, "budget_parameter_error", joint.budget.parameter_error);
   writer.attribute(group, "budget_missing_physics", joint.budget.missing_physics);
   writer.attribute(group, "budget_unexplained", joint.budget.unexplained);

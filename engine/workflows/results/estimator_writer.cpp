@@ -166,10 +166,11 @@ void write_model_code(ResultWriter& writer, std::string const& label, Regressor 
   auto const names = regressor.names(), units = regressor.units();
   for (std::size_t k = 0; k < names.size(); ++k)
     parameters.push_back({names[k], in_torque_unit(units[k], torque_unit), values[static_cast<Eigen::Index>(k)]});
-  auto const laws = laws_of(parameters);
+  auto const effects = estimated_effects(parameters);
   JointKind const joint = regressor.joint();
-  writer.attribute(group_of(label), "model_c", c_text(laws, {}, {joint, torque_unit, "joint_" + effort_word(joint)}));
-  writer.attribute(group_of(label), "model_mjcf", mjcf_joint(laws, {joint, torque_unit, "joint"}));
+  writer.attribute(group_of(label), "model_c",
+                   c_text(effects, {}, {joint, torque_unit, "joint_" + effort_word(joint)}));
+  writer.attribute(group_of(label), "model_mjcf", mjcf_joint(effects, {joint, torque_unit, "joint"}));
 }
 
 void write_fitness_choice(ResultWriter& writer, std::string const& label, FitnessChoice const& choice) {

@@ -15,7 +15,7 @@ namespace torquescope {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Laws = std::vector<ModelLaw>;
+using Effects = std::vector<EstimatedEffect>;
 
 // without what could end a comment, an attribute or a line
 std::string plain(std::string const& text) {
@@ -33,50 +33,52 @@ std::string number_in_c(double value) {
   return fmt::format("{}", value);
 }
 
-std::string said(ModelLaw const& law) {
-  if (law.effect) return law.effect->name();
-  return plain(law.parameters.front().name);
+std::string said(EstimatedEffect const& estimated) {
+  if (estimated.effect) return estimated.effect->name();
+  return plain(estimated.parameters.front().name);
 }
 
 JointKind kind_of(JointDiagnosis const& joint) {
   return joint.unit_position == "m" ? JointKind::prismatic : JointKind::revolute;
 }
 
-bool asks_for(Laws const& laws, std::string const& word) {
-  return std::any_of(laws.begin(), laws.end(), [&](ModelLaw const& law) { return has_word(law.code, word); });
+bool asks_for(Effects const& effects, std::string const& word) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](EstimatedEffect const& estimated) { return has_word(estimated.code, word); });
 }
 
 // what the numbers are, and what is not in them
-std::string c_comment(Laws const& laws, ModelledJoint const& joint, std::vector<std::string> const& remarks) {
+std::string c_comment(Effects const& effects, ModelledJoint const& joint, std::vector<std::string> const& remarks) {
   std::string const angle = joint.kind == JointKind::prismatic ? "m" : "rad", unit = plain(joint.torque_unit);
   std::string text =
       fmt::format("/* {0} in {1} from q in {2}, dq in {2}/s, ddq in {2}/s2\n", effort_word(joint.kind), unit, angle);
-  if (asks_for(laws, "load"))
+  if (asks_for(effects, "load"))
     text += fmt::format(
         "   load in {}: what the gear carries, of weight, springs and inertia of everything behind it\n", unit);
   for (auto const& remark : remarks) text += "   " + plain(remark) + "\n";
   std::set<std::string> left_out;
-  for (auto const& law : laws)
-    if (law.code.empty()) left_out.insert(fmt::format("   left out: {}, which {}\n", said(law), law.why_no_code));
+  for (auto const& effect : effects)
+    if (effect.code.empty())
+      left_out.insert(fmt::format("   left out: {}, which {}\n", said(effect), effect.why_no_code));
   for (auto const& line : left_out) text += line;
   text.back() = ' ';
   return text + "*/\n";
 }
 
-std::string c_constants(Laws const& laws, LawLevels const& levels) {
+std::string c_constants(Effects const& effects, EffectLevels const& levels) {
   std::string text;
   auto const constant = [&](std::string const& name, double value, std::string const& remark) {
     text += fmt::format("  const double {} = {};{}\n", name, number_in_c(value),
                         remark.empty() ? "" : "  /* " + plain(remark) + " */");
   };
-  for (auto const& law : laws) {
-    if (law.code.empty()) continue;
-    for (auto const& one : law.parameters) constant(one.name, one.value, one.unit == "1" ? "" : one.unit);
-    for (auto const& one : law.held) constant(one.name, one.value, "fixed by the joint");
+  for (auto const& effect : effects) {
+    if (effect.code.empty()) continue;
+    for (auto const& one : effect.parameters) constant(one.name, one.value, one.unit == "1" ? "" : one.unit);
+    for (auto const& one : effect.held) constant(one.name, one.value, "fixed by the joint");
   }
-  if (asks_for(laws, "baseline_inertia")) constant("baseline_inertia", levels.inertia, "as load was taken with");
-  if (asks_for(laws, "s")) text += "  const double s = (dq > 0) - (dq < 0);\n";
-  if (asks_for(laws, "friction_sign"))
+  if (asks_for(effects, "baseline_inertia")) constant("baseline_inertia", levels.inertia, "as load was taken with");
+  if (asks_for(effects, "s")) text += "  const double s = (dq > 0) - (dq < 0);\n";
+  if (asks_for(effects, "friction_sign"))
     text += fmt::format("  const double friction_sign = dq > 0 ? {} : dq < 0 ? {} : 0;  /* as Coulomb friction */\n",
                         number_in_c(levels.forward), number_in_c(levels.backward));
   return text;
@@ -94,15 +96,15 @@ Json json_of(std::vector<ParameterEstimate> const& parameters) {
   return list;
 }
 
-Json json_of(ModelLaw const& law) {
-  Json made = {{"name", law.effect ? Json(law.effect->name()) : Json(nullptr)},
-               {"title", law.effect ? law.effect->title() : ""},
-               {"equation", law.effect ? law.effect->equation() : ""},
-               {"code", law.code.empty() ? Json(nullptr) : Json(law.code)},
-               {"why_no_code", law.why_no_code},
-               {"parameters", json_of(law.parameters)}};
+Json json_of(EstimatedEffect const& estimated) {
+  Json made = {{"name", estimated.effect ? Json(estimated.effect->name()) : Json(nullptr)},
+               {"title", estimated.effect ? estimated.effect->title() : ""},
+               {"equation", estimated.effect ? estimated.effect->equation() : ""},
+               {"code", estimated.code.empty() ? Json(nullptr) : Json(estimated.code)},
+               {"why_no_code", estimated.why_no_code},
+               {"parameters", json_of(estimated.parameters)}};
   made["held"] = Json::object();
-  for (auto const& one : law.held) made["held"][one.name] = one.value;
+  for (auto const& one : estimated.held) made["held"][one.name] = one.value;
   return made;
 }
 
@@ -117,16 +119,16 @@ Json json_of(NamedEffect const& effect) {
 }
 
 Json json_of(JointDiagnosis const& joint) {
-  Json laws = Json::array();
-  for (auto const& law : laws_of(joint)) laws.push_back(json_of(law));
+  Json effects = Json::array();
+  for (auto const& effect : estimated_effects(joint)) effects.push_back(json_of(effect));
   return {{"joint", joint.joint},
           {"name", joint.name},
           {"kind", kind_of(joint) == JointKind::revolute ? "revolute" : "prismatic"},
           {"unit_position", joint.unit_position},
           {"unit_torque", joint.unit_torque},
-          {"friction_sign", Json::array({finite(joint.law_levels.forward), finite(joint.law_levels.backward)})},
-          {"baseline_inertia", finite(joint.law_levels.inertia)},
-          {"laws", std::move(laws)}};
+          {"friction_sign", Json::array({finite(joint.effect_levels.forward), finite(joint.effect_levels.backward)})},
+          {"baseline_inertia", finite(joint.effect_levels.inertia)},
+          {"laws", std::move(effects)}};
 }
 
 // what MJCF has words for, by parameter
@@ -152,39 +154,39 @@ std::string function_of(Diagnosis const& diagnosis, JointDiagnosis const& joint)
       if (Effect const* known = find_effect(effect.name))
         remarks.push_back(fmt::format("left out: {}, which {}", effect.name, why_no_code(*known)));
   }
-  return c_function(laws_of(joint), joint.law_levels, {kind_of(joint), joint.unit_torque, function_name(joint)},
-                    remarks);
+  return c_function(estimated_effects(joint), joint.effect_levels,
+                    {kind_of(joint), joint.unit_torque, function_name(joint)}, remarks);
 }
 
 }  // namespace
 
 std::string effort_word(JointKind joint) { return joint == JointKind::prismatic ? "force" : "torque"; }
 
-std::string c_function(Laws const& laws, LawLevels const& levels, ModelledJoint const& joint,
+std::string c_function(Effects const& effects, EffectLevels const& levels, ModelledJoint const& joint,
                        std::vector<std::string> const& remarks) {
   std::vector<std::string> sum;
-  for (auto const& law : laws)
-    if (!law.code.empty()) sum.push_back(law.code);
+  for (auto const& effect : effects)
+    if (!effect.code.empty()) sum.push_back(effect.code);
   if (sum.empty()) return "";
-  std::string text = c_comment(laws, joint, remarks);
-  bool const has_load = asks_for(laws, "load");
+  std::string text = c_comment(effects, joint, remarks);
+  bool const has_load = asks_for(effects, "load");
   text += fmt::format("double {}(double q, double dq, double ddq{}) {{\n", joint.name, has_load ? ", double load" : "");
-  text += c_constants(laws, levels);
+  text += c_constants(effects, levels);
   for (auto const* word : {"q", "dq", "ddq"}) {
-    bool const is_used =
-        asks_for(laws, word) || (std::string(word) == "dq" && (asks_for(laws, "s") || asks_for(laws, "friction_sign")));
+    bool const is_used = asks_for(effects, word) ||
+                         (std::string(word) == "dq" && (asks_for(effects, "s") || asks_for(effects, "friction_sign")));
     if (!is_used) text += fmt::format("  (void){};\n", word);
   }
   return text + fmt::format("  return {};\n}}\n", fmt::join(sum, "\n       + "));
 }
 
-std::string mjcf_joint(Laws const& laws, ModelledJoint const& joint) {
+std::string mjcf_joint(Effects const& effects, ModelledJoint const& joint) {
   std::string attributes, both_levels;
   std::set<std::string> has_words, inside;
   std::vector<std::string> rest;
   auto const value = [&](std::string const& parameter) {
-    for (auto const& law : laws)
-      for (auto const& one : law.parameters)
+    for (auto const& effect : effects)
+      for (auto const& one : effect.parameters)
         if (one.name == parameter) return one.value;
     return unknown;
   };
@@ -204,8 +206,8 @@ std::string mjcf_joint(Laws const& laws, ModelledJoint const& joint) {
     inside.insert({forwards, backwards});
   }
   if (!has_words.contains("damping") && !has_words.contains("frictionloss")) return "";
-  for (auto const& law : laws)
-    if (!inside.contains(law.parameters.front().name)) rest.push_back(said(law));
+  for (auto const& effect : effects)
+    if (!inside.contains(effect.parameters.front().name)) rest.push_back(said(effect));
   std::string const own = plain(joint.name);
   std::string text = fmt::format("<joint name=\"{}\" type=\"{}\"{}/>\n", own.empty() ? "joint" : own,
                                  joint.kind == JointKind::prismatic ? "slide" : "hinge", attributes);
@@ -219,8 +221,8 @@ std::string mjcf_joint(Laws const& laws, ModelledJoint const& joint) {
   return text;
 }
 
-std::string c_text(Laws const& laws, LawLevels const& levels, ModelledJoint const& joint) {
-  std::string const text = c_function(laws, levels, joint);
+std::string c_text(Effects const& effects, EffectLevels const& levels, ModelledJoint const& joint) {
+  std::string const text = c_function(effects, levels, joint);
   return text.empty() ? "" : function_head + text;
 }
 
@@ -230,8 +232,8 @@ std::string c_of_joint(Diagnosis const& diagnosis, JointDiagnosis const& joint) 
 }
 
 std::string mjcf_of_joint(JointDiagnosis const& joint) {
-  return mjcf_joint(laws_of(joint), {kind_of(joint), joint.unit_torque,
-                                     joint.name.empty() ? fmt::format("joint_{}", joint.joint) : joint.name});
+  return mjcf_joint(estimated_effects(joint), {kind_of(joint), joint.unit_torque,
+                                               joint.name.empty() ? fmt::format("joint_{}", joint.joint) : joint.name});
 }
 
 namespace {

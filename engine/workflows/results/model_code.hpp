@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/experiment/model_laws.hpp"
+#include "engine/experiment/model_effects.hpp"
 #include "engine/infer/verdict/diagnosis.hpp"
 #include "engine/robot/joint_kind.hpp"
 
@@ -25,12 +25,12 @@ struct ModelledJoint {
 };
 
 // double NAME(double q, double dq, double ddq[, double load]); "" when none has code. remarks: lines of its comment
-std::string c_function(std::vector<ModelLaw> const& laws, LawLevels const& levels, ModelledJoint const& joint,
-                       std::vector<std::string> const& remarks = {});
+std::string c_function(std::vector<EstimatedEffect> const& effects, EffectLevels const& levels,
+                       ModelledJoint const& joint, std::vector<std::string> const& remarks = {});
 // the same as a file of its own
-std::string c_text(std::vector<ModelLaw> const& laws, LawLevels const& levels, ModelledJoint const& joint);
+std::string c_text(std::vector<EstimatedEffect> const& effects, EffectLevels const& levels, ModelledJoint const& joint);
 // <joint name=... damping=... frictionloss=... armature=.../> and comments; "" without friction that MJCF has
-std::string mjcf_joint(std::vector<ModelLaw> const& laws, ModelledJoint const& joint);
+std::string mjcf_joint(std::vector<EstimatedEffect> const& effects, ModelledJoint const& joint);
 
 std::string c_of_joint(Diagnosis const& diagnosis, JointDiagnosis const& joint);
 std::string mjcf_of_joint(JointDiagnosis const& joint);

@@ -90,7 +90,7 @@ class Words(unittest.TestCase):
                      "cannot be told from load stribeck friction",
                      "Easily confused with torque lag and torque delay at a low gain; a faster motion tells."):
             self.assertIn(text, said)
-        rows = tables_of_servo.law_parameters(servo())["rows"]
+        rows = tables_of_servo.effect_parameters(servo())["rows"]
         self.assertEqual([row[1] for row in rows], ["command_delay_s", "load_friction", "stribeck_speed"])
         self.assertEqual(rows[2][2:], ["16.70", "rad/s", "–", "", ""], "nothing is known of its interval")
 

@@ -64,9 +64,9 @@ TEST(Emps, TheControllerFoundInItsTorqueIsThePublishedOne) {
   ControllerFit const found =
       fit_controller({recording.time_s, recording.reference, recording.position, recording.torque, nullptr});
   EXPECT_GT(found.r_squared, 0.99999);
-  EXPECT_NEAR(found.law.proportional_gain() / (kp * kv * newton_per_volt), 1.0, 1e-3);
-  EXPECT_NEAR(found.law.velocity_gain(recording.rate_hz) / (kv * newton_per_volt), 1.0, 0.01);
-  EXPECT_EQ(found.law.integral, 0.0);
+  EXPECT_NEAR(found.controller.proportional_gain() / (kp * kv * newton_per_volt), 1.0, 1e-3);
+  EXPECT_NEAR(found.controller.velocity_gain(recording.rate_hz) / (kv * newton_per_volt), 1.0, 0.01);
+  EXPECT_EQ(found.controller.integral, 0.0);
   // the velocity loop has an encoder of its own: its rounding is not in the recorded position, so the remainder is
   // small but not white, and says so
   EXPECT_FALSE(found.is_white);

@@ -1,4 +1,4 @@
-// Interpolation between uneven samples: its laws.
+// Interpolation between uneven samples: its effects.
 
 #include "engine/data/resample.hpp"
 

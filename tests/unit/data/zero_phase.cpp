@@ -1,4 +1,4 @@
-// The Butterworth design and its zero-phase use: laws first, then numbers of scipy 1.10. Columns side by side
+// The Butterworth design and its zero-phase use: effects first, then numbers of scipy 1.10. Columns side by side
 // are what each is alone, and long silence costs nothing.
 
 #include "engine/data/zero_phase.hpp"

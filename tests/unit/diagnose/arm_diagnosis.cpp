@@ -33,10 +33,10 @@ Diagnosis diagnosed(PlanarArm arm, int threads = 1) {
   arm.pace = 0.87;
   arm.seed += 100;
   std::vector<RecordedArm> const validation{recorded(arm)};
-  std::vector<Effect const*> laws;
+  std::vector<Effect const*> effects;
   for (auto const* name : {"load_dependent_friction", "cogging", "stribeck", "spring", "asymmetric_viscous"})
-    laws.push_back(find_effect(name));
-  std::vector<std::vector<Effect const*>> const candidates(2, laws);
+    effects.push_back(find_effect(name));
+  std::vector<std::vector<Effect const*>> const candidates(2, effects);
   FilterOptions const filter = ten_hertz();
   ArmDiagnosisInput input{model, train, validation, candidates, filter, section};
   input.seed = 3;
@@ -77,28 +77,28 @@ TEST(ArmDiagnosis, ACompleteArmLacksNothing) {
 
 TEST(ArmDiagnosis, FrictionThatGrowsWithTheLoadOfTheLinksIsNamedWhereItIs) {
   PlanarArm arm;
-  arm.law = [](double, double dq, double load) { return 0.05 * std::abs(load) * std::copysign(1.0, dq); };
+  arm.effect = [](double, double dq, double load) { return 0.05 * std::abs(load) * std::copysign(1.0, dq); };
   Diagnosis const one = diagnosed(arm), two = diagnosed(arm, 2);
   expect_named("load_dependent_friction", one);
   ASSERT_FALSE(one.joints[1].effects.empty());
   EXPECT_NEAR(one.joints[1].effects.front().parameters.front().value, 0.05, 0.01);
   for (std::size_t j = 0; j < 2; ++j) {
     auto const &a = one.joints[j], &b = two.joints[j];
-    double const left[4] = {a.train_relerr, a.validation_relerr, a.cv_relerr, a.decision->steps[0].laws[0].gain};
-    double const right[4] = {b.train_relerr, b.validation_relerr, b.cv_relerr, b.decision->steps[0].laws[0].gain};
+    double const left[4] = {a.train_relerr, a.validation_relerr, a.cv_relerr, a.decision->steps[0].effects[0].gain};
+    double const right[4] = {b.train_relerr, b.validation_relerr, b.cv_relerr, b.decision->steps[0].effects[0].gain};
     EXPECT_EQ(std::memcmp(left, right, sizeof(left)), 0);
   }
 }
 
 TEST(ArmDiagnosis, CoggingIsNamedWhereItIs) {
   PlanarArm arm;
-  arm.law = [](double q, double, double) { return 0.25 * std::sin(9.0 * q); };
+  arm.effect = [](double q, double, double) { return 0.25 * std::sin(9.0 * q); };
   expect_named("cogging", diagnosed(arm));
 }
 
 TEST(ArmDiagnosis, AStribeckCurveIsNamedWhereItIs) {
   PlanarArm arm;
-  arm.law = [](double, double dq, double) { return std::copysign(1.0 * std::exp(-std::pow(dq / 0.3, 2)), dq); };
+  arm.effect = [](double, double dq, double) { return std::copysign(1.0 * std::exp(-std::pow(dq / 0.3, 2)), dq); };
   expect_named("stribeck", diagnosed(arm));
 }
 

@@ -3,7 +3,8 @@
 //
 // Equation   tau_1 = M11 ddq_1 + M12 ddq_2 - h (2 dq_1 dq_2 + dq_2^2) + g ((m1 c1 + m2 l1) cos q_1 + m2 c2 cos q_12)
 //            tau_2 = M12 ddq_1 + M22 ddq_2 + h dq_1^2 + g m2 c2 cos q_12, h = m2 l1 c2 sin q_2
-// Friction   viscous, and Coulomb friction with the sign of the speed, in both joints; beside them a law of one joint
+// Friction   viscous, and Coulomb friction with the sign of the speed, in both joints; beside them an effect of one
+//            joint
 // Source     Spong, Hutchinson, Vidyasagar 2006, Robot Modeling and Control, section 7.4, ISBN 978-0-471-64990-8
 
 #include <cmath>
@@ -19,7 +20,7 @@ namespace torquescope::test {
 
 struct PlanarArm {
   // of joint `at`, from its position, its speed and what the links ask of it; none
-  std::function<double(double q, double dq, double load)> law{};
+  std::function<double(double q, double dq, double load)> effect{};
   std::size_t at = 1;
   double noise = 0.03, encoder_step = 2e-5;
   double pace = 1.0;  // another recording of the same arm moves at another one
@@ -64,7 +65,7 @@ inline PlanarTorque planar_torque(PlanarArm const& arm, double t) {
   PlanarTorque torque{};
   for (std::size_t j = 0; j < 2; ++j) {
     torque.of[j] = load[j] + viscous[j] * dq[j] + coulomb[j] * std::copysign(1.0, dq[j]) + offset[j];
-    if (arm.law && arm.at == j) torque.of[j] += arm.law(q[j], dq[j], load[j]);
+    if (arm.effect && arm.at == j) torque.of[j] += arm.effect(q[j], dq[j], load[j]);
   }
   return torque;
 }

@@ -1,4 +1,5 @@
-// Laws of a whole arm, concealed in recordings of arms whose inverse dynamics is the test's own sum of what they feel.
+// Effects of a whole arm, concealed in recordings of arms whose inverse dynamics is the test's own sum of what they
+// feel.
 
 #include "engine/diagnose/arm_masses.hpp"
 
@@ -118,7 +119,7 @@ class WholeArmSearch : public testing::Test {
   }
 
   static WholeArmAnswer found_in(ArmDiagnosisInput const& asked, LearntArm const& arm) {
-    return laws_of_whole_arm(asked, {arm.laws, arm.rows, arm.noise()});
+    return effects_of_whole_arm(asked, {arm.effects, arm.rows, arm.noise()});
   }
 
   SerialChain const chain = three_revolute_joints();
@@ -131,7 +132,7 @@ class WholeArmSearch : public testing::Test {
     return options;
   }();
   Section const section{};
-  std::vector<std::vector<Effect const*>> const candidates{chain.joints.size(), arm_law_choices()};
+  std::vector<std::vector<Effect const*>> const candidates{chain.joints.size(), arm_effect_choices()};
 };
 
 TEST_F(WholeArmSearch, FindsNothingWhereNothingIsMissing) {
@@ -145,7 +146,7 @@ TEST_F(WholeArmSearch, FindsAPayloadItsInstantAndItsParameters) {
   auto const found = answer({recorded(truth, 1)}, {recorded({chain}, 2)});
   ASSERT_EQ(found.accepted.size(), 1u);
   auto const& one = found.accepted.front();
-  EXPECT_EQ(one.law.effect->name(), "payload_picked_up");
+  EXPECT_EQ(one.effect.effect->name(), "payload_picked_up");
   ASSERT_TRUE(one.time);
   EXPECT_NEAR(one.time->from_s, 11.0, 0.1);
   EXPECT_TRUE(std::isinf(one.time->until_s));
@@ -164,7 +165,7 @@ TEST_F(WholeArmSearch, GivesAPayloadInstantsOfItsOwnInValidationRecordings) {
                             {recorded({chain, 1.5, 19.0, 1e9}, 2), recorded({chain, 1.5, 6.0, 14.0}, 3)});
   ASSERT_EQ(found.accepted.size(), 1u);
   auto const& one = found.accepted.front();
-  EXPECT_EQ(one.law.effect->name(), "payload_picked_up");
+  EXPECT_EQ(one.effect.effect->name(), "payload_picked_up");
   ASSERT_EQ(one.validation_times.size(), 2u);
   ASSERT_TRUE(one.validation_times[0] && one.validation_times[1]);
   EXPECT_NEAR(one.validation_times[0]->from_s, 19.0, 0.15);
@@ -179,7 +180,7 @@ TEST_F(WholeArmSearch, FindsAForceForAWhile) {
   auto const found = answer({recorded(truth, 1)}, {});
   ASSERT_EQ(found.accepted.size(), 1u);
   auto const& one = found.accepted.front();
-  EXPECT_EQ(one.law.effect->name(), "tip_contact");
+  EXPECT_EQ(one.effect.effect->name(), "tip_contact");
   ASSERT_TRUE(one.time);
   EXPECT_NEAR(one.time->from_s, 8.0, 0.15);
   EXPECT_NEAR(one.time->until_s, 17.0, 0.15);
@@ -192,14 +193,14 @@ TEST_F(WholeArmSearch, FindsATiltedBaseAndAWrongZero) {
   tilted.chain.gravity = std::cos(0.06) * chain.gravity + std::sin(0.06) * chain.gravity.norm() * aside;
   auto const of_tilt = answer({recorded(tilted, 1)}, {recorded(tilted, 2)});
   ASSERT_FALSE(of_tilt.accepted.empty());
-  EXPECT_EQ(of_tilt.accepted.front().law.effect->name(), "gravity_direction");
+  EXPECT_EQ(of_tilt.accepted.front().effect.effect->name(), "gravity_direction");
   EXPECT_NEAR(of_tilt.accepted.front().values.norm(), 0.06, 0.006);
   Truth turned{chain};
   turned.chain.joints[1].offset += 0.05;
   auto const of_zero = answer({recorded(turned, 1)}, {recorded(turned, 2)});
   ASSERT_FALSE(of_zero.accepted.empty());
-  EXPECT_EQ(of_zero.accepted.front().law.effect->name(), "joint_zero");
-  EXPECT_EQ(of_zero.accepted.front().law.joint, std::optional<std::size_t>(1));
+  EXPECT_EQ(of_zero.accepted.front().effect.effect->name(), "joint_zero");
+  EXPECT_EQ(of_zero.accepted.front().effect.joint, std::optional<std::size_t>(1));
   EXPECT_NEAR(of_zero.accepted.front().values[0], 0.05, 0.005);
   EXPECT_LT(of_zero.accepted.front().validation_after, 0.5 * of_zero.accepted.front().validation_before);
 }
@@ -227,7 +228,7 @@ TEST_F(WholeArmSearch, TakesOutWhatItFound) {
   std::vector<RecordedArm> const none{};
   LearntArm const arm = learnt(input(train, none));
   auto const found = found_in(input(train, none), arm);
-  auto const left = without_laws(input(train, none), arm.files, {filter, section}, found.accepted);
+  auto const left = without_effects(input(train, none), arm.files, {filter, section}, found.accepted);
   RecordedArm const without = recorded({chain}, 1);
   double wrong = 0.0, whole = 0.0;
   for (std::size_t j = 0; j < train[0].joints.size(); ++j) {

@@ -15,7 +15,7 @@ CarryOver of(std::string const& name) {
   return carry_over(*effect);
 }
 
-TEST(CarriedOver, WholeAreLawsOfTheMotion) {
+TEST(CarriedOver, WholeAreEffectsOfTheMotion) {
   for (auto const* name : {"spring", "stribeck", "delay", "presliding"}) EXPECT_EQ(of(name), CarryOver::whole) << name;
 }
 

@@ -66,7 +66,7 @@ TEST_P(EveryEffect, HasNoParameterWithoutAUnitOnASlide) {
 TEST_P(EveryEffect, RunsOverTheRecordingAsItsColumnsSay) {
   auto const& effect = *GetParam();
   if (effect.acts_on() == ActsOn::recorded_position) return;  // the runner gives positions
-  // the runner wants the command or the recorded torque: see channel_laws.cpp
+  // the runner wants the command or the recorded torque: see channel_effects.cpp
   if (effect.name() == "actuator_lag" || effect.name() == "torque_constant") return;
   Bench const bench;
   auto const parameters = parameters_with(effect, shape_between(effect, bench.baseline.scales));
@@ -177,7 +177,7 @@ TEST_P(EveryEffect, IsDryFrictionExactlyWhenItsTorqueJumpsAtRest) {
   EXPECT_EQ(effect.is_dry_friction() || effect.is_partly_dry(), has_jumped);
 }
 
-// the law that lets a plant find the joint's inertia: two trial accelerations tell all others
+// the effect that lets a plant find the joint's inertia: two trial accelerations tell all others
 TEST_P(EveryEffect, IsAffineInTheAccelerationOfATrial) {
   auto const& effect = *GetParam();
   if (effect.is_dry_friction() && effect.needs_baseline())

@@ -22,8 +22,8 @@ TEST(Code, IsTheTorqueOfTheEffect) {
   constexpr double rounding = 1e-12;  // of torques of a few N m
   std::mt19937 random(44);
   std::set<std::string> seen;
-  for (CodedLaw const* law = coded_laws; law->effect; ++law) {
-    Effect const& effect = *find_effect(law->effect);
+  for (CodedEffect const* coded = coded_effects; coded->effect; ++coded) {
+    Effect const& effect = *find_effect(coded->effect);
     seen.insert(effect.name());
     double largest = 0.0;
     for (int draw = 0; draw < 300; ++draw) {
@@ -41,11 +41,11 @@ TEST(Code, IsTheTorqueOfTheEffect) {
       for (auto& parameter : parameters)
         if (effect.n_shape() > 0 && &parameter >= &parameters[effect.n_linear()] && !effect.has_plain_form())
           parameter = std::abs(parameter) + 0.05;
-      auto const given = std::span(parameters).first(law->is_plain ? effect.n_linear() : parameters.size());
+      auto const given = std::span(parameters).first(coded->is_plain ? effect.n_linear() : parameters.size());
       double const expected = effect.torque(state, given, scales);
       double const sign = (state.dq > 0.0) - (state.dq < 0.0);
-      double const found = law->torque(parameters.data(), state.q, state.dq, state.ddq, sign,
-                                       scales.friction_sign()(state.dq), state.load_torque, scales.inertia);
+      double const found = coded->torque(parameters.data(), state.q, state.dq, state.ddq, sign,
+                                         scales.friction_sign()(state.dq), state.load_torque, scales.inertia);
       EXPECT_NEAR(found, expected, rounding * std::max(1.0, std::abs(expected))) << effect.name();
       largest = std::max(largest, std::abs(expected));
     }
@@ -55,7 +55,7 @@ TEST(Code, IsTheTorqueOfTheEffect) {
 }
 
 TEST(Code, IsThereOrAReasonIsGiven) {
-  for (auto const* choices : {&effect_choices(), &arm_law_choices()})
+  for (auto const* choices : {&effect_choices(), &arm_effect_choices()})
     for (auto const* effect : *choices) {
       EXPECT_EQ(effect->code().empty(), !why_no_code(*effect).empty()) << effect->name();
       EXPECT_EQ(effect->plain_code().empty(), effect->code().empty() || !effect->has_plain_form()) << effect->name();

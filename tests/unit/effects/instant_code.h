@@ -5,13 +5,13 @@
 extern "C" {
 #endif
 
-struct CodedLaw {
+struct CodedEffect {
   char const* effect;
   int is_plain;  // the form without shapes
   double (*torque)(double const* parameters, double q, double dq, double ddq, double s, double friction_sign,
                    double load, double baseline_inertia);
 };
-extern struct CodedLaw const coded_laws[];
+extern struct CodedEffect const coded_effects[];
 
 #ifdef __cplusplus
 }

@@ -80,7 +80,7 @@ TEST(Regressor, RefusesWhatLeastSquaresOnTheMotionCannotFitAndSaysWhy) {
   EXPECT_THAT(what("encoder_eccentricity"), HasSubstr("recorded channel"));
 }
 
-TEST(Regressor, HoldsThePlainFormOfALawThatHasShapes) {
+TEST(Regressor, HoldsThePlainFormOfAnEffectThatHasShapes) {
   Regressor const regressor({"inertia", "spring"}, JointKind::revolute);
   EXPECT_THAT(regressor.names(), ElementsAre("inertia", "spring"));
   EXPECT_EQ(regressor.equation(), "tau = J ddq + k q");

@@ -43,6 +43,6 @@ int main(int count, char** arguments) {
       rows += "  {\"" + effect->name() + "\", 1, plain_" + effect->name() + "},\n";
     }
   }
-  std::fprintf(file, "struct CodedLaw const coded_laws[] = {\n%s  {0, 0, 0}};\n", rows.c_str());
+  std::fprintf(file, "struct CodedEffect const coded_effects[] = {\n%s  {0, 0, 0}};\n", rows.c_str());
   return std::fclose(file) == 0 ? 0 : 74;
 }

@@ -1,4 +1,4 @@
-// A motion that cannot tell some laws closes these, and only when nothing is found does it take the blame.
+// A motion that cannot tell some effects closes these, and only when nothing is found does it take the blame.
 
 #include "engine/infer/pipeline/motion_limits.hpp"
 
@@ -29,12 +29,13 @@ Excitation with(double Excitation::*fact, double value) {
   return facts;
 }
 
-bool closes_law(Excitation const& facts, char const* law, double relerr = 0.05) {
-  return closes(limits_of(facts, relerr), *find_effect(law));
+bool closes_effect(Excitation const& facts, char const* effect, double relerr = 0.05) {
+  return closes(limits_of(facts, relerr), *find_effect(effect));
 }
 
 TEST(MotionLimits, ARichMotionClosesNothing) {
-  for (auto const* law : effect_choices()) EXPECT_FALSE(closes(limits_of(rich_motion(), 0.05), *law)) << law->name();
+  for (auto const* effect : effect_choices())
+    EXPECT_FALSE(closes(limits_of(rich_motion(), 0.05), *effect)) << effect->name();
   EXPECT_FALSE(blamed_for_silence(limits_of(rich_motion(), 0.05), rich_motion(), 0.05).has_value());
   EXPECT_EQ(closed_sentences(limits_of(rich_motion(), 0.05), rich_motion()), "");
 }
@@ -42,10 +43,10 @@ TEST(MotionLimits, ARichMotionClosesNothing) {
 TEST(MotionLimits, OneDirectionClosesWhatNeedsReversals) {
   for (double const share : {1.0, 0.0}) {
     Excitation const facts = with(&Excitation::forward_share, share);
-    for (auto const* law : {"presliding", "maxwell_slip", "backlash", "breakaway_dwell"})
-      EXPECT_TRUE(closes_law(facts, law)) << law;
-    for (auto const* law : {"cogging", "spring", "cable", "joint_elasticity", "stribeck", "clipping"})
-      EXPECT_FALSE(closes_law(facts, law)) << law;
+    for (auto const* effect : {"presliding", "maxwell_slip", "backlash", "breakaway_dwell"})
+      EXPECT_TRUE(closes_effect(facts, effect)) << effect;
+    for (auto const* effect : {"cogging", "spring", "cable", "joint_elasticity", "stribeck", "clipping"})
+      EXPECT_FALSE(closes_effect(facts, effect)) << effect;
     auto const why = blamed_for_silence(limits_of(facts, 0.05), facts, 0.05);
     ASSERT_TRUE(why.has_value());
     EXPECT_EQ(why->verdict, Verdict::insufficient);
@@ -75,19 +76,19 @@ TEST(MotionLimits, OneWayAtOneSpeedTellsPlaceFromTimeAfterATurnAlone) {
   }
 }
 
-TEST(MotionLimits, OneSpeedClosesLawsOfTheVelocity) {
+TEST(MotionLimits, OneSpeedClosesEffectsOfTheVelocity) {
   Excitation const facts = with(&Excitation::speed_spread, 1.05);
-  for (auto const* law : {"stribeck", "power_law_viscous", "speed_drag", "asymmetric_viscous"})
-    EXPECT_TRUE(closes_law(facts, law)) << law;
-  for (auto const* law : {"cogging", "spring", "position_dependent_friction", "delay"})
-    EXPECT_FALSE(closes_law(facts, law)) << law;
+  for (auto const* effect : {"stribeck", "power_law_viscous", "speed_drag", "asymmetric_viscous"})
+    EXPECT_TRUE(closes_effect(facts, effect)) << effect;
+  for (auto const* effect : {"cogging", "spring", "position_dependent_friction", "delay"})
+    EXPECT_FALSE(closes_effect(facts, effect)) << effect;
   auto const why = blamed_for_silence(limits_of(facts, 0.05), facts, 0.05);
   ASSERT_TRUE(why.has_value());
   EXPECT_NE(why->way_out.find("four speeds"), std::string::npos);
 }
 
 TEST(MotionLimits, ATorqueThatTheBaselineHardlyExplainsIsSearched) {
-  for (auto const* law : effect_choices()) EXPECT_FALSE(closes_law(rich_motion(), law->name().c_str(), 0.97));
+  for (auto const* effect : effect_choices()) EXPECT_FALSE(closes_effect(rich_motion(), effect->name().c_str(), 0.97));
   auto const why = blamed_for_silence(limits_of(rich_motion(), 0.97), rich_motion(), 0.97);
   ASSERT_TRUE(why.has_value());
   EXPECT_EQ(why->verdict, Verdict::data_fault);
@@ -96,7 +97,7 @@ TEST(MotionLimits, ATorqueThatTheBaselineHardlyExplainsIsSearched) {
 
 TEST(MotionLimits, ATorqueAtItsLimitLeavesClippingOpen) {
   Excitation const facts = with(&Excitation::torque_limit_share, 0.31);
-  EXPECT_FALSE(closes_law(facts, "clipping"));
+  EXPECT_FALSE(closes_effect(facts, "clipping"));
   EXPECT_NE(closed_sentences(limits_of(facts, 0.05), facts).find("31 %"), std::string::npos);
 }
 

@@ -43,7 +43,7 @@ TEST(RecordedLoop, FedByItsTorqueStandsAtReversalsAsLongAsRecorded) {
   EXPECT_LT(std::abs(fed - recorded), 0.5 * std::abs(led - recorded)) << fed << " " << led << " " << recorded;
 }
 
-// the law answers the joint's motion: where the encoder's steps lie changes readings and not the torque
+// the controller answers the joint's motion: where the encoder's steps lie changes readings and not the torque
 TEST(RecordedLoop, FedByItsTorqueDoesNotFeelTheEncoder) {
   auto const joint = test::clean_joint();
   RecordedLoop fed =

@@ -93,7 +93,7 @@ TEST(CheckRecording, HasNothingToSayOfAGoodOne) {
   EXPECT_FALSE(check_recording(facts).has_value());
 }
 
-// they close laws, and end no diagnosis (motion_limits.hpp)
+// they close effects, and end no diagnosis (motion_limits.hpp)
 TEST(CheckRecording, LetsOneDirectionOneSpeedAndALimitPass) {
   Excitation facts = good_recording();
   facts.forward_share = 1.0;

@@ -82,7 +82,7 @@ TEST(PositionFactor, IsSilentWhereAnySmallFactorDoesAsWell) {
       EXPECT_FALSE(told({.reach = reach, .spring = spring}, 1.0).has_value()) << spring << ' ' << reach;
 }
 
-TEST(PositionFactor, NeedsALawThatIsNoPowerOfThePosition) {
+TEST(PositionFactor, NeedsAnEffectThatIsNoPowerOfThePosition) {
   std::vector<std::string> const flat{"inertia", "viscous", "coulomb", "offset", "spring"};
   Regressor const regressor(flat, JointKind::revolute);
   EXPECT_FALSE(tells_unit_of_position(regressor));

@@ -88,15 +88,15 @@ TEST(LoopError, OfTheTrueLoopIsNearNothing) {
   EXPECT_NEAR(loop_error(numbers, 1, track), 0.1 * std::sqrt(samples) / track.torque.norm(), 1e-3);
 }
 
-TEST(LoopError, OfAnIdentifiedLawIsNearNothing) {
+TEST(LoopError, OfAnIdentifiedControllerIsNearNothing) {
   PlainController const controller = controller_of("pd");
   RolloutTrack const track = recorded(dry_joint(), controller, moved(samples), exact);
   // kp (r - q) - kd (q - q before) rate
-  LoopLaw law;
+  LoopController identified;
   double const by_speed = controller.kd * track.rate_hz;
-  law.position = {-controller.kp - by_speed, by_speed};
-  law.reference = {0.0, controller.kp, 0.0};
-  EXPECT_LT(loop_error(law, track), 1e-9);
+  identified.position = {-controller.kp - by_speed, by_speed};
+  identified.reference = {0.0, controller.kp, 0.0};
+  EXPECT_LT(loop_error(identified, track), 1e-9);
 }
 
 // rounding makes long differences look better than the one that the controller takes

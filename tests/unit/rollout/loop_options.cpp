@@ -100,7 +100,7 @@ TEST(LoopOptions, FitBeginsSomewhere) {
   EXPECT_TRUE(
       read({{"controller", text("p")}, {"torque_limit", 3.0}, {"fit", texts({"torque_limit"})}}).problems.empty());
   EXPECT_TRUE(read({{"controller", text("p")}, {"fit", texts({"torque_delay_s"})}}).problems.empty());
-  // an identified law has its delay in itself
+  // an identified controller has its delay in itself
   auto const identified = read({{"fit", texts({"command_delay_s"})}}).problems;
   ASSERT_EQ(identified.size(), 1u);
   EXPECT_THAT(identified[0].help, HasSubstr("p_velocity"));

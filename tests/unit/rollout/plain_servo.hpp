@@ -1,6 +1,6 @@
 #pragma once
-// A position-controlled servo by itself, as its data sheet and its gear's law say it: what lanes of servos are held
-// against. No code of the engine.
+// A position-controlled servo by itself, as its data sheet and its gear's controller say it: what lanes of servos are
+// held against. No code of the engine.
 //
 // Tick       the drive reads the position, answers, and its command is held until the next answer
 // Motion     `finer` steps a tick, implicit in the damping, the weight in the middle of the step; dry friction is a

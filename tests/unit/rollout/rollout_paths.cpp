@@ -177,17 +177,17 @@ TEST(RolloutPaths, OfEffectsAreThoseOfTheJointByItself) {
   }
 }
 
-// a law in samples that says what a controller of numbers says: kp (r - q) - kd (q - q before) rate
-TEST(RolloutPaths, OfAnIdentifiedLawAreThoseOfItsController) {
+// a controller in samples that says what a controller of numbers says: kp (r - q) - kd (q - q before) rate
+TEST(RolloutPaths, OfAnIdentifiedControllerAreThoseOfItsController) {
   PlainController const pd{"pd", 18.0, 0.0, 1.0};
   PlainInputs in = inputs();
   in.enabled.clear();
   PlainMotion const plain = PlainLoop(heavy_and_dry(), pd, in, start, 100).run();
   RolloutTrack track = track_of(in, start);
-  LoopLaw law;
-  law.position = {-pd.kp - pd.kd * rate_hz, pd.kd * rate_hz};
-  law.reference = {0.0, pd.kp, 0.0};
-  track.law = law;
+  LoopController controller;
+  controller.position = {-pd.kp - pd.kd * rate_hz, pd.kd * rate_hz};
+  controller.reference = {0.0, pd.kp, 0.0};
+  track.controller = controller;
   RolloutTrial trial = trial_of(heavy_and_dry(), pd);
   trial.loop = numbers_of(LoopForm::identified, {});
   Rolled const all = rolled(track, structure_of({}), {trial});

@@ -1,5 +1,5 @@
-// Every law of drive and gear does in the lanes what it does in a servo that is simulated by itself in twenty times
-// finer steps: each alone, all together, and with what a track knows of its load.
+// Every controller of drive and gear does in the lanes what it does in a servo that is simulated by itself in twenty
+// times finer steps: each alone, all together, and with what a track knows of its load.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace servo_lanes_test {
 // hundred rad/s2 2e-5 rad, which a loop forgets and a joint whose drive is off does not. Steps of h / 20 leave
 // a four hundredth. What is late by a tick is off by h times three rad/s, fifty times as much
 constexpr double near = 6e-5, velocity_for_position = 200.0;  // 1/s
-constexpr double moves = 1e-3;                                // rad, that a law must do to be tested by this
+constexpr double moves = 1e-3;                                // rad, that a controller must do to be tested by this
 constexpr int samples = 300, ticks_per_sample = 10;
 constexpr double rate_hz = 100.0;
 constexpr PlainStart start{0.1, 0.0, 0.0};
@@ -30,38 +30,38 @@ struct Case {
   double jump = 0.0;  // V, of the command at an error that it turns or begins at
 };
 
-std::vector<Case> const laws{{"load friction", [](PlainServo& s) { s.load = 0.2; }},
-                             {"friction by the square of the load", [](PlainServo& s) { s.load_square = 0.1; }},
-                             {"Stribeck friction", [](PlainServo& s) { s.stribeck = 0.15; }},
-                             {"Stribeck friction of the load", [](PlainServo& s) { s.load_stribeck = 0.25; }},
-                             {"friction over the angle",
-                              [](PlainServo& s) {
-                                s.angle_cos = 0.04;
-                                s.angle_sin = -0.06;
-                              }},
-                             {"dead band", [](PlainServo& s) { s.dead_band = 0.03; }, 1.8},
-                             {"punch", [](PlainServo& s) { s.punch = 1.5; }, 3.0},
-                             {"limit", [](PlainServo& s) { s.limit = 6.0; }},
-                             {"motor gain", [](PlainServo& s) { s.motor_gain = 0.32; }},
-                             {"back-EMF", [](PlainServo& s) { s.back_emf = 0.4; }},
-                             {"delay of whole ticks", [](PlainServo& s) { s.command_delay_s = 0.037; }},
-                             {"delay between ticks", [](PlainServo& s) { s.command_delay_s = 0.0234; }},
-                             {"offset", [](PlainServo& s) { s.offset = 0.2; }},
-                             {"all",
-                              [](PlainServo& s) {
-                                s.load = 0.1;
-                                s.load_square = 0.03;
-                                s.stribeck = 0.1;
-                                s.load_stribeck = 0.1;
-                                s.dead_band = 0.03;
-                                s.punch = 0.6;
-                                s.limit = 9.0;
-                                s.motor_gain = 0.3;
-                                s.back_emf = 0.25;
-                                s.command_delay_s = 0.0307;
-                                s.offset = 0.05;
-                              },
-                              1.8}};
+std::vector<Case> const controllers{{"load friction", [](PlainServo& s) { s.load = 0.2; }},
+                                    {"friction by the square of the load", [](PlainServo& s) { s.load_square = 0.1; }},
+                                    {"Stribeck friction", [](PlainServo& s) { s.stribeck = 0.15; }},
+                                    {"Stribeck friction of the load", [](PlainServo& s) { s.load_stribeck = 0.25; }},
+                                    {"friction over the angle",
+                                     [](PlainServo& s) {
+                                       s.angle_cos = 0.04;
+                                       s.angle_sin = -0.06;
+                                     }},
+                                    {"dead band", [](PlainServo& s) { s.dead_band = 0.03; }, 1.8},
+                                    {"punch", [](PlainServo& s) { s.punch = 1.5; }, 3.0},
+                                    {"limit", [](PlainServo& s) { s.limit = 6.0; }},
+                                    {"motor gain", [](PlainServo& s) { s.motor_gain = 0.32; }},
+                                    {"back-EMF", [](PlainServo& s) { s.back_emf = 0.4; }},
+                                    {"delay of whole ticks", [](PlainServo& s) { s.command_delay_s = 0.037; }},
+                                    {"delay between ticks", [](PlainServo& s) { s.command_delay_s = 0.0234; }},
+                                    {"offset", [](PlainServo& s) { s.offset = 0.2; }},
+                                    {"all",
+                                     [](PlainServo& s) {
+                                       s.load = 0.1;
+                                       s.load_square = 0.03;
+                                       s.stribeck = 0.1;
+                                       s.load_stribeck = 0.1;
+                                       s.dead_band = 0.03;
+                                       s.punch = 0.6;
+                                       s.limit = 9.0;
+                                       s.motor_gain = 0.3;
+                                       s.back_emf = 0.25;
+                                       s.command_delay_s = 0.0307;
+                                       s.offset = 0.05;
+                                     },
+                                     1.8}};
 
 PlainServo loaded() {
   PlainServo servo;
@@ -81,10 +81,10 @@ PlainInputs inputs(bool is_straight, bool has_pauses) {
 
 // A command that jumps may jump a tick apart, where errors are alike but on two sides of the threshold: an impulse,
 // which the loop turns into a way at its own frequency
-double tolerance_of(Case const& law, PlainServo const& servo) {
+double tolerance_of(Case const& controller, PlainServo const& servo) {
   double const tick_s = 1.0 / (rate_hz * ticks_per_sample);
   double const swing = std::sqrt(servo.gain * servo.motor_gain / servo.inertia);  // rad/s
-  return near + law.jump * servo.motor_gain * tick_s / servo.inertia / swing;
+  return near + controller.jump * servo.motor_gain * tick_s / servo.inertia / swing;
 }
 
 double largest(Eigen::VectorXd const& a, Eigen::VectorXd const& b) { return (a - b).cwiseAbs().maxCoeff(); }
@@ -102,19 +102,20 @@ TEST(ServoLanes, DoWhatTheServoDoesByItself) {
     for (bool const has_pauses : {false, true}) {
       PlainInputs const in = inputs(is_straight, has_pauses);
       Eigen::VectorXd const without = vector_of(run_servo(loaded(), in, start).position);
-      for (auto const& law : laws) {
+      for (auto const& controller : controllers) {
         PlainServo servo = loaded();
-        law.change(servo);
+        controller.change(servo);
         ServoMotion const plain = run_servo(servo, in, start);
         Rolled const all = rolled_beside(track_of(in, start), trial_of(servo));
-        double const tolerance = tolerance_of(law, servo);
-        EXPECT_LT(largest(all.position.col(1), vector_of(plain.position)), tolerance) << law.name;
+        double const tolerance = tolerance_of(controller, servo);
+        EXPECT_LT(largest(all.position.col(1), vector_of(plain.position)), tolerance) << controller.name;
         EXPECT_LT(largest(all.velocity.col(1), vector_of(plain.velocity)), velocity_for_position * tolerance)
-            << law.name;
-        if (law.jump == 0.0) {
-          EXPECT_LT(largest(all.torque.col(1), vector_of(plain.command)), 2.0 * servo.gain * tolerance) << law.name;
+            << controller.name;
+        if (controller.jump == 0.0) {
+          EXPECT_LT(largest(all.torque.col(1), vector_of(plain.command)), 2.0 * servo.gain * tolerance)
+              << controller.name;
         }
-        EXPECT_GT(largest(without, vector_of(plain.position)), moves) << law.name;
+        EXPECT_GT(largest(without, vector_of(plain.position)), moves) << controller.name;
       }
     }
 }

@@ -86,7 +86,7 @@ TEST(ServoPaths, RubGearsAlikeInRegistersAndTickByTick) {
     EXPECT_LT(largest(a.position, b.position), same);
     EXPECT_LT(largest(a.velocity, b.velocity), velocity_for_position * same);
     EXPECT_LT(largest(a.torque, b.torque), 60.0 * same);
-    // each law of a gear beside the last, which has none
+    // each controller of a gear beside the last, which has none
     for (Eigen::Index lane = 0; lane < 5; ++lane)
       EXPECT_GT(largest(a.position.col(lane), a.position.col(5)), 1e-3) << lane;
   }
@@ -134,18 +134,18 @@ TEST(ServoPaths, ReadAnEncoderAlikeInRegistersAndTickByTick) {
   EXPECT_LT(largest(a.velocity, b.velocity), velocity_for_position * last_digits);
 }
 
-// an identified law that says kp (goal - q) once a sample is asked tick by tick too
-TEST(ServoPaths, RubGearsAlikeUnderAnIdentifiedLaw) {
+// an identified controller that says kp (goal - q) once a sample is asked tick by tick too
+TEST(ServoPaths, RubGearsAlikeUnderAnIdentifiedController) {
   PlainServo servo = loaded();
   servo.command_delay_s = 0.0;
   servo.limit = std::numeric_limits<double>::infinity();
   servo.encoder_step = encoder_step;
   RolloutTrack led = track(1), found = led;
   led.rate_hz = found.rate_hz = 1000.0;
-  LoopLaw law;
-  law.position = {-servo.gain};
-  law.reference = {0.0, servo.gain, 0.0};
-  found.law = law;
+  LoopController controller;
+  controller.position = {-servo.gain};
+  controller.reference = {0.0, servo.gain, 0.0};
+  found.controller = controller;
   RolloutTrial const numbers = trial_of(servo);
   RolloutTrial identified = numbers;
   LoopNumbers const none;

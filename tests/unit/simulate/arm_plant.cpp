@@ -119,7 +119,8 @@ TEST(ArmPlant, IsOfSecondOrderThroughReversals) {
   EXPECT_GT(std::log2(coarse / fine) / 3.0, 1.7);
 }
 
-// Dahl's law: below breakaway a joint on bristles gives way by - D ln(1 - u / F), where dry friction would hold it
+// Dahl's controller: below breakaway a joint on bristles gives way by - D ln(1 - u / F), where dry friction would hold
+// it
 TEST(ArmPlant, EffectsMayRemember) {
   auto const arm = test::random_arm(8, false, true);
   Effect const& presliding = *find_effect("presliding");

@@ -20,7 +20,7 @@ Eigen::VectorXd ringing_noise(Eigen::Index n) {
   return x.tail(n);
 }
 
-TEST(Autoregression, FindsTheLawOfARingingNoise) {
+TEST(Autoregression, FindsTheControllerOfARingingNoise) {
   Eigen::Index const n = 40000;
   auto const found = fit_autoregression(ringing_noise(n));
   ASSERT_GE(found.past.size(), 2u);

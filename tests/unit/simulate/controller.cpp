@@ -78,7 +78,7 @@ TEST_P(EveryController, AnswersAfterItsDelay) {
 INSTANTIATE_TEST_SUITE_P(AllKinds, EveryController, testing::Values("p_velocity", "pd", "pid"),
                          [](auto const& tested) { return tested.param; });
 
-TEST(Controller, CascadeIsThePrintedLaw) {
+TEST(Controller, CascadeIsThePrintedController) {
   auto options = of_kind("p_velocity");
   options.kp = 8.0;
   options.kv = 1.5;

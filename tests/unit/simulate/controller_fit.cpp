@@ -55,17 +55,17 @@ TEST_P(EveryIdentifiedController, IsIdentifiedWithTheTorqueNoiseAsItsRemainder) 
   auto const recording = simulate_joint(loop_plan(GetParam()), 3);
   auto const found = fit(recording);
   EXPECT_TRUE(found.is_white) << found.remark;
-  EXPECT_EQ(found.law.shift, 0);
+  EXPECT_EQ(found.controller.shift, 0);
   EXPECT_TRUE(found.limited.empty());
   EXPECT_GT(found.r_squared, 0.999);
   // noise / (gain * sqrt(n) * spread of the regressor): 0.1 % and 0.2 % are more than five standard errors
-  EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 1e-3);
-  EXPECT_NEAR(found.law.velocity_gain(1000.0) / damping(recording.gains), 1.0, 4e-3);
+  EXPECT_NEAR(found.controller.proportional_gain() / stiffness(recording.gains), 1.0, 1e-3);
+  EXPECT_NEAR(found.controller.velocity_gain(1000.0) / damping(recording.gains), 1.0, 4e-3);
   EXPECT_NEAR(found.noise.std / torque_noise, 1.0, 4.0 / std::sqrt(2.0 * 15000.0));
   if (GetParam() == "pid")
-    EXPECT_NEAR(found.law.integral * 1000.0 / recording.gains.ki, 1.0, 3e-3);
+    EXPECT_NEAR(found.controller.integral * 1000.0 / recording.gains.ki, 1.0, 3e-3);
   else
-    EXPECT_EQ(found.law.integral, 0.0);
+    EXPECT_EQ(found.controller.integral, 0.0);
 }
 
 TEST_P(EveryIdentifiedController, IsIdentifiedBehindAVelocityFilter) {
@@ -89,9 +89,9 @@ TEST_P(EveryIdentifiedController, GivesWayAtItsTorqueLimit) {
   auto const limited = static_cast<double>(found.limited.size()),
              saturated = static_cast<double>(recording.saturated_samples);
   EXPECT_NEAR(limited, saturated, 0.05 * saturated);
-  EXPECT_NEAR(found.law.most, 1.5, 0.01);
-  EXPECT_NEAR(found.law.least, -1.5, 0.01);
-  EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 1e-3);
+  EXPECT_NEAR(found.controller.most, 1.5, 0.01);
+  EXPECT_NEAR(found.controller.least, -1.5, 0.01);
+  EXPECT_NEAR(found.controller.proportional_gain() / stiffness(recording.gains), 1.0, 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryIdentifiedController, testing::Values("pd", "pid", "p_velocity"));
@@ -108,7 +108,7 @@ TEST(ControllerFit, FindsAReferenceThatIsLoggedLate) {
     recording.reference[k] = reference[std::max<Eigen::Index>(k - 2, 0)];
   auto const found = fit(recording);
   EXPECT_TRUE(found.is_white) << found.remark;
-  EXPECT_EQ(found.law.shift, 2);
+  EXPECT_EQ(found.controller.shift, 2);
 }
 
 TEST(ControllerFit, TellsASensorDriftFromTheLoop) {
@@ -135,11 +135,11 @@ TEST(ControllerFit, FindsFrictionAndGravityFedForward) {
   }
   auto const found = fit(recording);
   EXPECT_NEAR(found.noise.std / torque_noise, 1.0, 0.1);
-  EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 3e-3);
+  EXPECT_NEAR(found.controller.proportional_gain() / stiffness(recording.gains), 1.0, 3e-3);
   // at a steady speed all of the friction is there, with its sign
   double forward = 0.0, gravity_found = 0.0;
   Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(100, 0.0, 0.2);
-  for (auto const& term : found.law.terms) {
+  for (auto const& term : found.controller.terms) {
     if (term.shape == ReferenceShape::smooth_sign) forward += term.gain * term(ReferenceSignal(ramp), 50);
     if (term.shape == ReferenceShape::sine) gravity_found = term.gain;
   }
@@ -163,9 +163,9 @@ TEST(ControllerFit, FindsTheLoadOfOtherJointsFedForward) {
   auto const found = fit_controller({recording.time_s, recording.reference, recording.position, whole, &load});
   EXPECT_TRUE(found.is_white) << found.remark;
   EXPECT_NEAR(found.noise.std / torque_noise, 1.0, 4.0 / std::sqrt(2.0 * 15000.0));
-  EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 2e-3);
-  EXPECT_NEAR(found.law.gear_load[0], 0.9, 2e-3);
-  EXPECT_NEAR(found.law.gear_load[1] / (0.9 * static_cast<double>(ahead)), 1.0, 0.05);
+  EXPECT_NEAR(found.controller.proportional_gain() / stiffness(recording.gains), 1.0, 2e-3);
+  EXPECT_NEAR(found.controller.gear_load[0], 0.9, 2e-3);
+  EXPECT_NEAR(found.controller.gear_load[1] / (0.9 * static_cast<double>(ahead)), 1.0, 0.05);
   // not told of the load, it cannot but take it for noise
   EXPECT_GT(fit_controller({recording.time_s, recording.reference, recording.position, whole}).noise.std,
             2.0 * torque_noise);
@@ -173,14 +173,14 @@ TEST(ControllerFit, FindsTheLoadOfOtherJointsFedForward) {
 
 TEST(ControllerFit, FeedsNothingForwardThatIsNotThere) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
-    EXPECT_TRUE(fit(simulate_joint(loop_plan("pd"), seed)).law.terms.empty());
+    EXPECT_TRUE(fit(simulate_joint(loop_plan("pd"), seed)).controller.terms.empty());
   // nor where the noise has a memory
   auto recording = simulate_joint(loop_plan("pd"), 3);
   double memory = 0.0;
   for (Eigen::Index k = 0; k < recording.torque.size(); ++k)
     recording.torque[k] += memory =
         0.9 * memory + (recording.torque[k] - recording.torque[std::max<Eigen::Index>(k - 1, 0)]) * 0.3;
-  EXPECT_TRUE(fit(recording).law.terms.empty());
+  EXPECT_TRUE(fit(recording).controller.terms.empty());
 }
 
 TEST(ControllerFit, SaysWhenTheLoggerWasTooSlow) {
@@ -196,7 +196,7 @@ TEST(ControllerFit, SaysWhenTheLoggerWasTooSlow) {
   }
 }
 
-TEST(ControllerFit, RarelyDoubtsATrueLaw) {
+TEST(ControllerFit, RarelyDoubtsATrueController) {
   // 1 % by construction: 4 of 40 would be a chance of 7e-4
   int doubts = 0;
   auto plan = loop_plan("pd");
@@ -205,8 +205,8 @@ TEST(ControllerFit, RarelyDoubtsATrueLaw) {
   EXPECT_LT(doubts, 4);
 }
 
-// a reference with a single kink (0.5 s) leaves the law of the first look undetermined in a few rows; their errors must
-// not pass for a torque limit
+// a reference with a single kink (0.5 s) leaves the controller of the first look undetermined in a few rows; their
+// errors must not pass for a torque limit
 TEST(ControllerFit, FindsNoLimitBelowTheTorqueThatWasReached) {
   auto plan = loop_plan("pd");
   plan.simulation.duration_s = 8.0;
@@ -222,8 +222,8 @@ TEST(ControllerFit, FindsNoLimitBelowTheTorqueThatWasReached) {
     auto const recording = simulate_joint(plan, seed);
     auto const found = fit(recording);
     EXPECT_TRUE(found.limited.empty()) << seed;
-    EXPECT_GT(found.law.most, recording.torque.maxCoeff() - 6.0 * torque_noise) << seed;
-    EXPECT_LT(found.law.least, recording.torque.minCoeff() + 6.0 * torque_noise) << seed;
+    EXPECT_GT(found.controller.most, recording.torque.maxCoeff() - 6.0 * torque_noise) << seed;
+    EXPECT_LT(found.controller.least, recording.torque.minCoeff() + 6.0 * torque_noise) << seed;
   }
 }
 

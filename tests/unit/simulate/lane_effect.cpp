@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/simulate/replicate_simulator.hpp"
-#include "engine/simulate/tracking_law.hpp"
+#include "engine/simulate/tracking_controller.hpp"
 
 using namespace torquescope;
 
@@ -20,8 +20,8 @@ constexpr double rounding = 1e-12;
 // a motor that plays its reference as torque and looks at nothing: whatever a sensor shows, the joint moves alike
 ReplicateLoop blind_loop() {
   ReplicateLoop loop;
-  loop.law.position = {0.0};
-  loop.law.reference = {0.0, 1.0, 0.0};
+  loop.controller.position = {0.0};
+  loop.controller.reference = {0.0, 1.0, 0.0};
   loop.torque_noise = white(0.02);
   loop.position_noise_std = 1e-4;
   return loop;
@@ -30,7 +30,7 @@ ReplicateLoop blind_loop() {
 // stiff, with the position fed back
 ReplicateLoop closed_loop() {
   ReplicateLoop loop = blind_loop();
-  loop.law = tracking_law({0.04}, 10.0, {rate_hz});
+  loop.controller = tracking_controller({0.04}, 10.0, {rate_hz});
   return loop;
 }
 

@@ -61,7 +61,7 @@ TEST(PlantParameters, RefuseWhatIsNoNumber) {
   EXPECT_EQ(problems_of({}).size(), 1u);
 }
 
-TEST(PlantParameters, NeedTheShapeOfALawThatHasOne) {
+TEST(PlantParameters, NeedTheShapeOfAControllerThatHasOne) {
   EXPECT_TRUE(problems_of({{"stribeck", 0.1}, {"stribeck_speed", 0.02}, {"stribeck_exponent", 1.0}}).empty());
   auto const missing = problems_of({{"stribeck", 0.1}, {"stribeck_exponent", 1.0}});
   ASSERT_EQ(missing.size(), 1u);

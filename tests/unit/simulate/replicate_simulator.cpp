@@ -8,7 +8,7 @@
 
 #include "engine/simulate/controller_fit.hpp"
 #include "engine/simulate/joint_simulation.hpp"
-#include "engine/simulate/tracking_law.hpp"
+#include "engine/simulate/tracking_controller.hpp"
 #include "unit/simulate/plants.hpp"
 
 using namespace torquescope;
@@ -48,7 +48,7 @@ ReplicateTrack track_of(SimulatedRecording const& recording) {
 ReplicateSimulator replicate_of(SimulatedRecording const& recording, ReplicateJoint const& joint,
                                 double step_s = 1e-4) {
   auto const fit = fit_controller({recording.time_s, recording.reference, recording.position, recording.torque});
-  return {joint, {fit.law, encoder_step, fit.noise}, track_of(recording), step_s};
+  return {joint, {fit.controller, encoder_step, fit.noise}, track_of(recording), step_s};
 }
 
 ReplicateSimulator replicate_of(SimulatedRecording const& recording) {
@@ -102,7 +102,7 @@ TEST(ReplicateSimulator, HasNoiseOfItsOwnInEveryLaneGroupAndSet) {
     EXPECT_NEAR(correlation(*torque), 0.5, 0.1);
 }
 
-TEST(ReplicateSimulator, DrawsAStickingLawForEveryLaneWhereItIsUnknown) {
+TEST(ReplicateSimulator, DrawsAStickingControllerForEveryLaneWhereItIsUnknown) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   auto const held = replicate_of(recording);
   ReplicateLoop loop = held.loop();
@@ -145,8 +145,8 @@ TEST(ReplicateSimulator, IsTheSameWithATermInTheLanesOrAsAnEffect) {
   EXPECT_LT(rms(one.position[0] - two.position[0]), 0.5 * encoder_step);
 }
 
-// Large parts that cancel, as fits of a law that is nearly another one have them, in a slow log: held for a tick of 10
-// ms the one would be late beside the other, and the joint would seem heavier
+// Large parts that cancel, as fits of a controller that is nearly another one have them, in a slow log: held for a tick
+// of 10 ms the one would be late beside the other, and the joint would seem heavier
 TEST(ReplicateSimulator, IsTheSameWithLargePartsThatCancel) {
   auto plan = plan_of("pd");
   plan.simulation.rate_hz = 100.0;
@@ -183,7 +183,7 @@ class Shifted final : public LaneEffect {
   double position_, torque_;
 };
 
-TEST(ReplicateSimulator, HoldsThePlainFormOfALawThatHasShapes) {
+TEST(ReplicateSimulator, HoldsThePlainFormOfAControllerThatHasShapes) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   auto with_spring = std::vector<std::string>(terms.begin(), terms.end());
   with_spring.emplace_back("spring");
@@ -217,7 +217,7 @@ TEST(ReplicateSimulator, SeesAPositionFaultInTheLoopAndATorqueFaultInTheLogOnly)
   EXPECT_GT(rms(position.torque[0] - none.torque[0]), 0.001);
 }
 
-// a joint alone takes a step per tick; beside a law with a memory, here one that gives nothing, it takes fifty
+// a joint alone takes a step per tick; beside a controller with a memory, here one that gives nothing, it takes fifty
 TEST(ReplicateSimulator, DoesNotDependOnItsStep) {
   for (double rate_hz : {1000.0, 200.0}) {
     SimulationPlan plan = plan_of("pd");
@@ -235,26 +235,26 @@ TEST(ReplicateSimulator, DoesNotDependOnItsStep) {
   }
 }
 
-// of an arm: what the law gives to the other joints does not move this one, and is not in its torque
+// of an arm: what the controller gives to the other joints does not move this one, and is not in its torque
 TEST(ReplicateSimulator, GivesOtherJointsTheirLoadBesideItsOwnTorque) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   ReplicateSimulator const alone = replicate_of(recording);
   ReplicateLoop loop = alone.loop();
   ReplicateTrack track = alone.track();
   track.gear_load = 5.0 * (3.0 * recording.time_s.array()).sin();
-  loop.law.gear_load = {1.0, 0.0};
+  loop.controller.gear_load = {1.0, 0.0};
   ReplicateGroup plain, beside, unfed;
   alone.simulate({1, 0, 0}, 0, plain);
   ReplicateSimulator(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, beside);
   EXPECT_LT((beside.torque[0] - plain.torque[0]).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LT((beside.position[0] - plain.position[0]).cwiseAbs().maxCoeff(), 1.01 * encoder_step);
-  // a law that does not feed it forward lets the joint give way to it
-  loop.law.gear_load = {0.0, 0.0};
+  // a controller that does not feed it forward lets the joint give way to it
+  loop.controller.gear_load = {0.0, 0.0};
   ReplicateSimulator(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, unfed);
   EXPECT_GT(rms(unfed.position[0] - plain.position[0]), 100.0 * encoder_step);
   // what runs away is the torque of the drive
   track.largest_torque = 6.0;
-  loop.law.gear_load = {1.0, 0.0};
+  loop.controller.gear_load = {1.0, 0.0};
   track.gear_load.setConstant(100.0);
   ReplicateSimulator(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, beside);
   EXPECT_TRUE(beside.ran_away[0]);
@@ -265,7 +265,7 @@ TEST(ReplicateSimulator, SaysThatItRanAway) {
   ReplicateJoint const joint = make_replicate_joint(Regressor(terms, JointKind::revolute), truth());
   auto const sound = replicate_of(recording);
   ReplicateLoop loop = sound.loop();
-  for (auto& gain : loop.law.position) gain *= -1.0;
+  for (auto& gain : loop.controller.position) gain *= -1.0;
   ReplicateTrack track = sound.track();
   track.largest_torque = 3.0 * recording.torque.cwiseAbs().maxCoeff();
   ReplicateGroup group;
@@ -273,43 +273,43 @@ TEST(ReplicateSimulator, SaysThatItRanAway) {
   for (bool one : group.ran_away) EXPECT_TRUE(one);
 }
 
-TEST(TrackingLaw, FollowsAMotionThatHasNoReference) {
+TEST(TrackingController, FollowsAMotionThatHasNoReference) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   ReplicateJoint const joint = make_replicate_joint(Regressor(terms, JointKind::revolute), truth());
   ReplicateTrack track = track_of(recording);
   track.reference = recording.true_position;
   ReplicateSimulator const replicate(
-      joint, {tracking_law({joint.lanes.inertia}, 30.0, {1000.0}), encoder_step, white(0.02)}, track, 1e-4);
+      joint, {tracking_controller({joint.lanes.inertia}, 30.0, {1000.0}), encoder_step, white(0.02)}, track, 1e-4);
   ReplicateGroup group;
   replicate.simulate({1, 0, 0}, 0, group);
   // friction of 1.3 N m over a stiffness of J omega^2 = 1280 N m/rad
   double const by_error = rms(group.position[0] - recording.position);
   double const torque_by_error = rms(group.torque[0] - recording.torque);
   EXPECT_LT(by_error, 2.0 * 1.3 / 1280.0);
-  // a law that knows friction and gravity need not learn of them by its error, nor fight at reversals what is in the
-  // motion
+  // a controller that knows friction and gravity need not learn of them by its error, nor fight at reversals what is in
+  // the motion
   auto const& lanes = joint.lanes;
   TrackedJoint const known{
       lanes.inertia,     lanes.viscous,    joint.coulomb_forward + joint.offset, joint.coulomb_backward + joint.offset,
       lanes.gravity_sin, lanes.gravity_cos};
-  ReplicateSimulator(joint, {tracking_law(known, 30.0, {1000.0, 1e-3}), encoder_step, white(0.02)}, track, 1e-4)
+  ReplicateSimulator(joint, {tracking_controller(known, 30.0, {1000.0, 1e-3}), encoder_step, white(0.02)}, track, 1e-4)
       .simulate({1, 0, 0}, 0, group);
   EXPECT_LT(rms(group.position[0] - recording.position), 0.1 * by_error);
   EXPECT_LT(rms(group.torque[0] - recording.torque), 0.7 * torque_by_error);
 }
 
-TEST(ReplicateSimulator, FeedsForwardWhatItsLawSays) {
+TEST(ReplicateSimulator, FeedsForwardWhatItsControllerSays) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   auto const plain = replicate_of(recording);
   ReplicateLoop quiet = plain.loop();
   quiet.torque_noise = quiet.slow_torque_noise = white(0.0);
   quiet.disturbance_std = quiet.position_noise_std = quiet.friction_wander = quiet.encoder_step = 0.0;
-  quiet.law.position.assign(1, 0.0);
-  quiet.law.reference.clear();
-  quiet.law.integral = quiet.law.constant = 0.0;
+  quiet.controller.position.assign(1, 0.0);
+  quiet.controller.reference.clear();
+  quiet.controller.integral = quiet.controller.constant = 0.0;
   double const friction = 0.6, width = 1e-4, gravity = 0.3;
-  quiet.law.terms = {{ReferenceShape::smooth_sign, 0, 2, width, friction},
-                     {ReferenceShape::cosine, 1, 1, 1.0, gravity}};
+  quiet.controller.terms = {{ReferenceShape::smooth_sign, 0, 2, width, friction},
+                            {ReferenceShape::cosine, 1, 1, 1.0, gravity}};
   ReplicateGroup group;
   ReplicateSimulator(plain.joint(), quiet, plain.track(), 1e-4).simulate({1, 0, 0}, 0, group);
   auto const& r = recording.reference;

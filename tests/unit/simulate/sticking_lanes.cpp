@@ -26,51 +26,51 @@ LaneTorques friction_and(double held) {
   return torques;
 }
 
-LaneSticking law_of(double creep, double length) {
-  LaneSticking law;
-  std::fill_n(law.creep, replicate_lanes, creep);
-  std::fill_n(law.length, replicate_lanes, length);
-  return law;
+LaneSticking controller_of(double creep, double length) {
+  LaneSticking controller;
+  std::fill_n(controller.creep, replicate_lanes, creep);
+  std::fill_n(controller.length, replicate_lanes, length);
+  return controller;
 }
 
 TEST(StickingLanes, CreepInProportionToWhatPushesThem) {
   LaneState state;
-  LaneSticking law = law_of(0.02, 0.0);
-  advance_sticking_lanes(light, friction_and(0.25 * coulomb), step_s, 10000, law, state);
+  LaneSticking controller = controller_of(0.02, 0.0);
+  advance_sticking_lanes(light, friction_and(0.25 * coulomb), step_s, 10000, controller, state);
   EXPECT_NEAR(state.dq[0], 0.25 * 0.02, 1e-12);
-  EXPECT_NEAR(law.bend[0], 0.25, 1e-9);
+  EXPECT_NEAR(controller.bend[0], 0.25, 1e-9);
 }
 
 TEST(StickingLanes, BendLikeASpringAndComeBack) {
   double const length = 1e-3;
   LaneState state;
-  LaneSticking law = law_of(0.0, length);
+  LaneSticking controller = controller_of(0.0, length);
   LaneJoint const damped{inertia, 10.0, 0.0, 0.0};
-  advance_sticking_lanes(damped, friction_and(0.5 * coulomb), step_s, 20000, law, state);
+  advance_sticking_lanes(damped, friction_and(0.5 * coulomb), step_s, 20000, controller, state);
   EXPECT_NEAR(state.q[0], 0.5 * length, 1e-6 * length);
-  advance_sticking_lanes(damped, friction_and(0.0), step_s, 20000, law, state);
+  advance_sticking_lanes(damped, friction_and(0.0), step_s, 20000, controller, state);
   EXPECT_NEAR(state.q[0], 0.0, 1e-6 * length);
 }
 
 TEST(StickingLanes, OnlyTakeEnergy) {
-  // a lane each for laws from set-valued to long bristles and fast creep
-  LaneSticking law;
+  // a lane each for controllers from set-valued to long bristles and fast creep
+  LaneSticking controller;
   LaneState state;
   for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
-    law.creep[lane] = lane % 4 == 0 ? 0.0 : 1e-4 * std::pow(10.0, static_cast<double>(lane % 4));
-    law.length[lane] = lane / 4 == 0 ? 0.0 : 1e-5 * std::pow(10.0, static_cast<double>(lane / 4));
-    law.bend[lane] = lane % 2 == 0 ? 1.0 : -1.0;
+    controller.creep[lane] = lane % 4 == 0 ? 0.0 : 1e-4 * std::pow(10.0, static_cast<double>(lane % 4));
+    controller.length[lane] = lane / 4 == 0 ? 0.0 : 1e-5 * std::pow(10.0, static_cast<double>(lane / 4));
+    controller.bend[lane] = lane % 2 == 0 ? 1.0 : -1.0;
     state.dq[lane] = 0.4;
   }
   LaneTorques const torques = friction_and(0.0);
   auto const energy = [&](std::size_t lane) {
-    double const stored = 0.5 * coulomb * law.length[lane] * law.bend[lane] * law.bend[lane];
+    double const stored = 0.5 * coulomb * controller.length[lane] * controller.bend[lane] * controller.bend[lane];
     return 0.5 * inertia * state.dq[lane] * state.dq[lane] + stored;
   };
   double before[replicate_lanes];
   for (std::size_t lane = 0; lane < replicate_lanes; ++lane) before[lane] = energy(lane);
   for (int step = 0; step < 3000; ++step) {
-    advance_sticking_lanes(light, torques, step_s, 1, law, state);
+    advance_sticking_lanes(light, torques, step_s, 1, controller, state);
     for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       ASSERT_LE(energy(lane), before[lane] * (1.0 + 1e-12) + 1e-18) << lane << " " << step;
       before[lane] = energy(lane);
@@ -100,9 +100,10 @@ LaneState driven(Advance const& advance) {
 }
 
 LaneState driven_by(LaneSticking const& start, std::size_t steps_per_tick) {
-  LaneSticking law = start;
+  LaneSticking controller = start;
   return driven([&](LaneTorques const& torques, LaneState& state) {
-    advance_sticking_lanes(heavy, torques, 1e-3 / static_cast<double>(steps_per_tick), steps_per_tick, law, state);
+    advance_sticking_lanes(heavy, torques, 1e-3 / static_cast<double>(steps_per_tick), steps_per_tick, controller,
+                           state);
   });
 }
 
@@ -117,33 +118,34 @@ LaneState held_at_once() {
   return driven([&](LaneTorques const& torques, LaneState& state) { advance_lanes(heavy, torques, 1e-5, 100, state); });
 }
 
-TEST(StickingLanes, HaveTheSetValuedLawAsTheirLimit) {
+TEST(StickingLanes, HaveTheSetValuedControllerAsTheirLimit) {
   LaneState const exact = held_at_once();
-  double const coarse = largest_difference(driven_by(law_of(0.0, 0.0), 10), exact);
-  double const fine = largest_difference(driven_by(law_of(0.0, 0.0), 100), exact);
+  double const coarse = largest_difference(driven_by(controller_of(0.0, 0.0), 10), exact);
+  double const fine = largest_difference(driven_by(controller_of(0.0, 0.0), 100), exact);
   EXPECT_LT(coarse, 1e-3);
   EXPECT_GT(coarse / fine, 5.0);  // of first order: 10
-  double const slow = largest_difference(driven_by(law_of(1e-4, 0.0), 100), exact);
-  double const fast = largest_difference(driven_by(law_of(1e-2, 0.0), 100), exact);
+  double const slow = largest_difference(driven_by(controller_of(1e-4, 0.0), 100), exact);
+  double const fast = largest_difference(driven_by(controller_of(1e-2, 0.0), 100), exact);
   EXPECT_LT(slow, 0.05 * fast);
   EXPECT_GT(fast, 1e-4);
 }
 
 TEST(StickingLanes, DoNotKnowTheirNeighbours) {
-  LaneSticking law = law_of(0.01, 1e-3);
-  LaneState const alike = driven_by(law, 10);
-  for (std::size_t lane = 1; lane < replicate_lanes; lane += 2) law.creep[lane] = 1e-4 * static_cast<double>(lane);
-  LaneState const mixed = driven_by(law, 10);
+  LaneSticking controller = controller_of(0.01, 1e-3);
+  LaneState const alike = driven_by(controller, 10);
+  for (std::size_t lane = 1; lane < replicate_lanes; lane += 2)
+    controller.creep[lane] = 1e-4 * static_cast<double>(lane);
+  LaneState const mixed = driven_by(controller, 10);
   for (std::size_t lane = 0; lane < replicate_lanes; lane += 2) EXPECT_EQ(alike.q[lane], mixed.q[lane]) << lane;
   for (std::size_t lane = 1; lane < replicate_lanes; lane += 2) EXPECT_NE(alike.q[lane], mixed.q[lane]) << lane;
 }
 
 TEST(StickingLanes, HaveTheSameBitsOnEveryInstructionSet) {
-  LaneSticking const law = law_of(0.01, 1e-3);
-  auto const best = driven_by(law, 10);
+  LaneSticking const controller = controller_of(0.01, 1e-3);
+  auto const best = driven_by(controller, 10);
   for (auto const name : kernels::supported_instruction_sets()) {
     ASSERT_TRUE(kernels::force_instruction_set(name));
-    auto const forced = driven_by(law, 10);
+    auto const forced = driven_by(controller, 10);
     EXPECT_EQ(std::memcmp(&best, &forced, sizeof(best)), 0) << name;
   }
   kernels::release_instruction_set();
@@ -154,18 +156,18 @@ TEST(StickingLanes, DrawAllSizesOfCreepAlikeWithinTheRange) {
   constexpr std::uint32_t groups = 100;
   int slow = 0, rigid = 0, n = 0;
   for (std::uint32_t group = 0; group < groups; ++group) {
-    LaneSticking law, again;
-    draw_sticking({7, 0, 4}, group, range, -0.1, law);
+    LaneSticking controller, again;
+    draw_sticking({7, 0, 4}, group, range, -0.1, controller);
     draw_sticking({7, 0, 4}, group, range, -0.1, again);
-    EXPECT_EQ(std::memcmp(&law, &again, sizeof law), 0);
+    EXPECT_EQ(std::memcmp(&controller, &again, sizeof controller), 0);
     for (std::size_t lane = 0; lane < replicate_lanes; ++lane, ++n) {
-      EXPECT_GE(law.creep[lane], range.least_creep);
-      EXPECT_LE(law.creep[lane], range.most_creep);
-      EXPECT_GE(law.length[lane], 0.0);
-      EXPECT_LE(law.length[lane], range.most_length);
-      EXPECT_EQ(law.bend[lane], -1.0);
-      if (law.creep[lane] < std::sqrt(range.least_creep * range.most_creep)) ++slow;
-      if (law.length[lane] == 0.0) ++rigid;
+      EXPECT_GE(controller.creep[lane], range.least_creep);
+      EXPECT_LE(controller.creep[lane], range.most_creep);
+      EXPECT_GE(controller.length[lane], 0.0);
+      EXPECT_LE(controller.length[lane], range.most_length);
+      EXPECT_EQ(controller.bend[lane], -1.0);
+      if (controller.creep[lane] < std::sqrt(range.least_creep * range.most_creep)) ++slow;
+      if (controller.length[lane] == 0.0) ++rigid;
     }
   }
   EXPECT_NEAR(slow, n / 2, 5.0 * std::sqrt(0.25 * n));

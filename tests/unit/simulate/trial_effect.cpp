@@ -40,7 +40,7 @@ LaneInstant instant(int tick) {
   return at;
 }
 
-// joints of their own, so that a law which follows the load sees which lane is which
+// joints of their own, so that a controller which follows the load sees which lane is which
 LaneBaseline baseline() {
   LaneBaseline made;
   for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {

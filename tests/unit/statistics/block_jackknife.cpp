@@ -1,5 +1,5 @@
-// The jackknife over blocks: as large as chance where the law is right, larger where it is not, silent on what happens
-// once.
+// The jackknife over blocks: as large as chance where the effect is right, larger where it is not, silent on what
+// happens once.
 
 #include "engine/fit/statistics/block_jackknife.hpp"
 
@@ -28,7 +28,7 @@ Eigen::MatrixXd wave() {
   return column;
 }
 
-TEST(BlockJackknife, IsTheStandardErrorOfLeastSquaresWhenTheLawIsRight) {
+TEST(BlockJackknife, IsTheStandardErrorOfLeastSquaresWhenTheEffectIsRight) {
   double mean_square = 0.0;
   constexpr int draws = 200;
   for (std::uint64_t seed = 1; seed <= draws; ++seed) {

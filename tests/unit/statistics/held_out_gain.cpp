@@ -40,9 +40,9 @@ HeldOutGain gain_of(Eigen::VectorXd const& before, Eigen::VectorXd const& after,
 }
 
 // an effect of that torque, predicted with an error of its own size times `wrong`
-HeldOutGain with_law(Eigen::VectorXd const& law, double wrong, unsigned seed, Blocks which) {
+HeldOutGain with_effect(Eigen::VectorXd const& effect, double wrong, unsigned seed, Blocks which) {
   Eigen::VectorXd const left = noise(rows, seed);
-  return gain_of(left + law, left + wrong * law.cwiseProduct(noise(rows, seed + 1)), which);
+  return gain_of(left + effect, left + wrong * effect.cwiseProduct(noise(rows, seed + 1)), which);
 }
 
 class HeldOutGainOf : public testing::TestWithParam<Blocks> {};
@@ -57,28 +57,28 @@ TEST(StudentT, HasTheTabledQuantiles) {
 }
 
 TEST_P(HeldOutGainOf, IsLowerWhereBlocksAgree) {
-  HeldOutGain const gain = with_law(Eigen::VectorXd::Constant(rows, 0.3), 0.1, 1, GetParam());
+  HeldOutGain const gain = with_effect(Eigen::VectorXd::Constant(rows, 0.3), 0.1, 1, GetParam());
   EXPECT_EQ(gain.change, HeldOutChange::lower) << gain.t;
   EXPECT_LT(gain.after, gain.before);
   EXPECT_EQ(gain.blocks, 60U);
 }
 
-TEST_P(HeldOutGainOf, IsLowerWhereALawActsInEveryTenthBlock) {
-  EXPECT_EQ(with_law(rarely(), 0.1, 2, GetParam()).change, HeldOutChange::lower);
+TEST_P(HeldOutGainOf, IsLowerWhereAnEffectActsInEveryTenthBlock) {
+  EXPECT_EQ(with_effect(rarely(), 0.1, 2, GetParam()).change, HeldOutChange::lower);
 }
 
 // two of sixty, where it is three times the noise
-TEST(HeldOutGain, IsLowerWhereALawActsInTwoBlocksIfTheseAreAsked) {
+TEST(HeldOutGain, IsLowerWhereAnEffectActsInTwoBlocksIfTheseAreAsked) {
   Eigen::VectorXd twice = Eigen::VectorXd::Zero(rows);
   twice.segment(200, 2 * rows_per_block).setConstant(3.0);
-  EXPECT_EQ(with_law(twice, 0.1, 3, Blocks::where_it_acts).change, HeldOutChange::lower);
-  EXPECT_EQ(with_law(twice, 0.1, 3, Blocks::alike).change, HeldOutChange::not_lower);
+  EXPECT_EQ(with_effect(twice, 0.1, 3, Blocks::where_it_acts).change, HeldOutChange::lower);
+  EXPECT_EQ(with_effect(twice, 0.1, 3, Blocks::alike).change, HeldOutChange::not_lower);
 }
 
 // it acts everywhere, and gains in one stretch alone: something else is there
-TEST_P(HeldOutGainOf, IsNotLowerWhereALawThatActsEverywhereGainsInOneBlock) {
-  Eigen::VectorXd const left = noise(rows, 4), law = 0.5 * noise(rows, 5);
-  Eigen::VectorXd before = left, after = left + law;
+TEST_P(HeldOutGainOf, IsNotLowerWhereAnEffectThatActsEverywhereGainsInOneBlock) {
+  Eigen::VectorXd const left = noise(rows, 4), effect = 0.5 * noise(rows, 5);
+  Eigen::VectorXd before = left, after = left + effect;
   after.segment(400, rows_per_block) = left.segment(400, rows_per_block);
   before.segment(400, rows_per_block).array() += 6.0;
   HeldOutGain const gain = gain_of(before, after, GetParam());
@@ -129,7 +129,7 @@ TEST_P(HeldOutGainOf, IsNotWorseWithinChance) {
   EXPECT_FALSE(gain_of(left, left.array() + 0.3, GetParam()).is_not_worse());
 }
 
-INSTANTIATE_TEST_SUITE_P(AllBlocksAlikeAndWhereTheLawActs, HeldOutGainOf,
+INSTANTIATE_TEST_SUITE_P(AllBlocksAlikeAndWhereTheEffectActs, HeldOutGainOf,
                          testing::Values(Blocks::alike, Blocks::where_it_acts));
 
 }  // namespace held_out_gain_test

@@ -15,7 +15,7 @@ std::string refused(std::string const& text, std::size_t joints = 3) {
     read_joint_models(job_of(text), joints, terms);
     SerialChain chain;
     chain.joints.resize(joints);
-    read_arm_laws(job_of(text), chain);
+    read_arm_effects(job_of(text), chain);
   } catch (Error const& error) {
     return error.problems().front().what;
   }
@@ -55,15 +55,15 @@ TEST(ArmKeys, TorquesOfMotorsAreThoseOfCoupledOnes) {
   EXPECT_EQ(problems.size(), 1u);
 }
 
-TEST(ArmKeys, ALawHasAJointAndAllOfItsShapesOrNone) {
+TEST(ArmKeys, AnEffectHasAJointAndAllOfItsShapesOrNone) {
   SerialChain chain;
   chain.joints.resize(3);
-  auto const laws = read_arm_laws(job_of("[[model.effects]]\njoint = 2\nname = \"stribeck\"\n"
-                                         "stribeck_speed = 0.1\nstribeck_exponent = 2\n"),
-                                  chain);
-  ASSERT_EQ(laws.size(), 1u);
-  EXPECT_EQ(laws[0].joint, 1u);
-  EXPECT_EQ(laws[0].shape, (std::vector<double>{0.1, 2.0}));
+  auto const effects = read_arm_effects(job_of("[[model.effects]]\njoint = 2\nname = \"stribeck\"\n"
+                                               "stribeck_speed = 0.1\nstribeck_exponent = 2\n"),
+                                        chain);
+  ASSERT_EQ(effects.size(), 1u);
+  EXPECT_EQ(effects[0].joint, 1u);
+  EXPECT_EQ(effects[0].shape, (std::vector<double>{0.1, 2.0}));
   std::string const begin = "[[model.effects]]\njoint = 2\n";
   EXPECT_EQ(refused("[[model.effects]]\nname = \"stribeck\"\n"), "an effect of an arm stands at one of its joints");
   EXPECT_EQ(refused(begin + "name = \"stribeck\"\nstribeck_speed = 0.1\n"), "stribeck has some of its shapes, not all");

@@ -11,7 +11,7 @@ MOTION = re.compile(r"\b(q|ddq|load)\b")
 VELOCITY = re.compile(r"\b(dq|s|friction_sign)\b")
 
 
-def friction_laws(model):
+def friction_effects(model):
     """[(effect, expression)] of what depends on the velocity alone and has all its parameters in the model."""
     return [(effect, expression) for effect, (names, expression) in CODE.items()
             if all(name in model for name in names) and VELOCITY.search(expression) and not MOTION.search(expression)]
@@ -22,16 +22,16 @@ def value(model, dq, sign=(1.0, -1.0)):
     known = {name: one.value for name, one in model.items()}
     known |= {"dq": dq, "s": np.sign(dq), "friction_sign": np.where(dq > 0, sign[0], np.where(dq < 0, sign[1], 0.0)),
               "exp": np.exp, "fabs": np.abs, "pow": np.power, "__builtins__": {}}
-    return sum(eval(expression, known) for _, expression in friction_laws(model))  # noqa: S307  of effect_code.py
+    return sum(eval(expression, known) for _, expression in friction_effects(model))  # noqa: S307  of effect_code.py
 
 
 def friction_table(model, fastest, sign=(1.0, -1.0)):
     """Lines for MATLAB: velocity and torque of a 1-D Lookup Table of Simulink, up to the fastest recorded speed."""
-    laws = friction_laws(model)
-    if not laws or not fastest > 0:
+    effects = friction_effects(model)
+    if not effects or not fastest > 0:
         return ""
     if not np.all(np.isfinite(sign)):
-        if any("friction_sign" in expression for _, expression in laws):
+        if any("friction_sign" in expression for _, expression in effects):
             return ""  # of an earlier version: these levels are not in the file
         sign = (1.0, -1.0)
     # denser towards rest, where friction bends; a step on either side of zero

@@ -38,16 +38,16 @@ def _gain(value):
     return "0" if abs(value) < 0.005 else q.number(value)
 
 
-def law_parameters(servo):
+def effect_parameters(servo):
     """{"head", "rows"}: a row for each number of the effects that were kept."""
     rows = []
-    for law in servo.kept:
-        sure = [_gain(law.gain), q.number(law.p, 2)]
-        for at, one in enumerate(law.parameters.values()):
-            rows.append([law.title, one.name, _value(one), unit(servo, one.unit), _interval(one),
+    for effect in servo.kept:
+        sure = [_gain(effect.gain), q.number(effect.p, 2)]
+        for at, one in enumerate(effect.parameters.values()):
+            rows.append([effect.title, one.name, _value(one), unit(servo, one.unit), _interval(one),
                          *(sure if at == 0 else ["", ""])])
-        if not law.parameters:
-            rows.append([law.title, "–", "–", "", "–", *sure])
+        if not effect.parameters:
+            rows.append([effect.title, "–", "–", "", "–", *sure])
     return {"head": ["effect", "parameter", "value", "unit", "95 % interval", "D", "p"], "rows": rows}
 
 

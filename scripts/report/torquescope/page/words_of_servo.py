@@ -37,7 +37,7 @@ def verdict(study):
     mark, word, tone = VERDICTS.get(servo.verdict, ("◌", diagnosed.plain(servo.verdict), "ochre"))
     if servo.verdict == "insufficient":
         word = "The model predicts nothing"
-    several = [1 + len(law.rivals) for law in servo.kept if law.rivals]
+    several = [1 + len(effect.rivals) for effect in servo.kept if effect.rivals]
     sentence = servo.headline[:1].upper() + servo.headline[1:].rstrip(".") + "."
     return {"mark": mark, "word": word.format(count=q.count_word(several[0]) if several else "several"), "tone": tone,
             "sentence": sentence, "headlines": [kept_together(sentence)], "evidence": kept_together(_evidence(servo))}
@@ -139,27 +139,27 @@ def motion_answer(study):
                    if more > 0 else "")
 
 
-def laws_answer(study):
+def effects_answer(study):
     servo = study.servo
     if not servo.kept:
         return "No effect of drive or gear was kept."
-    law = servo.kept[0]
+    effect = servo.kept[0]
     said = (f"{q.count_word(len(servo.kept)).capitalize()} effect{'s' if len(servo.kept) > 1 else ''} of drive and "
             f"gear {'were' if len(servo.kept) > 1 else 'was'} kept. D says how much worse the recordings are fitted "
             "without an effect; p, how often replicates of the model without it gain as much by chance")
     counts = {step.replicates for step in servo.steps}
     if len(counts) == 1 and (least := 1 / (counts.pop() + 1)) > 0:
-        said += f": {q.number(least, 2)} at least" if law.p >= least * (1 - 1e-9) else ""
+        said += f": {q.number(least, 2)} at least" if effect.p >= least * (1 - 1e-9) else ""
     return said + "."
 
 
-def confused(law):
+def confused(effect):
     """[sentence] about what else it could be."""
     said = []
-    if law.rivals:
-        said.append(f"In these recordings it cannot be told from {q.listed(plain(name) for name in law.rivals)}.")
-    if law.not_told_from:
-        said.append(f"Easily confused with {_words(law.not_told_from)}.")
+    if effect.rivals:
+        said.append(f"In these recordings it cannot be told from {q.listed(plain(name) for name in effect.rivals)}.")
+    if effect.not_told_from:
+        said.append(f"Easily confused with {_words(effect.not_told_from)}.")
     return said
 
 
@@ -172,9 +172,9 @@ def _words(text):
     return text.replace("_", " ").rstrip(".")
 
 
-def equation(law):
+def equation(effect):
     """With signs of mathematics."""
-    return law.equation.replace("<=", "≤").replace(">=", "≥").replace(" - ", f" {q.MINUS} ").replace(" * ", " · ")
+    return effect.equation.replace("<=", "≤").replace(">=", "≥").replace(" - ", f" {q.MINUS} ").replace(" * ", " · ")
 
 
 def errors_answer(study):

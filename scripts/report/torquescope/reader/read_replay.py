@@ -57,7 +57,7 @@ class ReplayRecording:
     window_s: float  # of "windows"; 0: the whole recording is one
     loop: str  # "given", "fitted", "identified", "approximated", "none"
     loop_words: str
-    loop_error: float  # share of the recorded torque that the loop's law leaves; NaN: unknown
+    loop_error: float  # share of the recorded torque that the loop's controller leaves; NaN: unknown
     horizon_s: float  # time until which the simulation can be believed; NaN: to its end
     diverged: np.ndarray  # bool [M]
     time: np.ndarray  # [n]

@@ -132,7 +132,7 @@ def _servo(of):
         name=of["name"], verdict=of["verdict"], headline=of["headline"], unit=unit, command_unit=of["command_unit"],
         train=_error(of["error"]["train"]), validate=_error(of["error"]["validate"]),
         left_rms=_number(adequacy["left_rms"]), replicates_rms=_number(adequacy["replicates_rms"]),
-        kept=[_law(one) for one in of["kept"]],
+        kept=[_effect(one) for one in of["kept"]],
         parameters=_parameters(of["parameters"]), parameters_before=_parameters(of["parameters_before"]),
         notes={one["note"]: one["text"] for one in of["notes"]},
         tables=_tables(of["tables"]), left_out=_tables(of["left_out"]),
@@ -162,7 +162,7 @@ def _parameters(numbers):
             for one in numbers}
 
 
-def _law(of):
+def _effect(of):
     return KeptLaw(**{**_numbers(of, KeptLaw), "parameters": _parameters(of["parameters"])})
 
 
