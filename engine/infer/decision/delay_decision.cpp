@@ -24,11 +24,7 @@ double allowed_delay(FittedStrips const& fitted) {
 }
 
 FittedModel at_allowed_delay(JointStrips const& rows, FittedModel const& model) {
-  FittedModel without;
-  without.model = std::make_unique<JointModel>(*model.model);
-  without.fitted = std::make_unique<FittedStrips>(*without.model, rows.training,
-                                                  DelayChoice{DelaySearch::given, 0.0, allowed_delay(*model.fitted)});
-  return without;
+  return fitted_at(rows, *model.model, allowed_delay(*model.fitted));
 }
 
 double delay_gain(FittedStrips const& fitted, FittedStrips const& at_allowed) {

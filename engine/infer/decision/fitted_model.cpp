@@ -65,6 +65,14 @@ FittedModel fitted_model(JointStrips const& rows, Regressor const& regressor, st
   return made;
 }
 
+FittedModel fitted_at(JointStrips const& rows, JointModel const& model, double late_s) {
+  FittedModel made;
+  made.model = std::make_unique<JointModel>(model);
+  made.fitted =
+      std::make_unique<FittedStrips>(*made.model, rows.training, DelayChoice{DelaySearch::given, 0.0, late_s});
+  return made;
+}
+
 double validation_error(JointStrips const& rows, FittedModel const& by) {
   if (rows.validation.empty()) return std::numeric_limits<double>::quiet_NaN();
   double energy = 0.0;

@@ -36,6 +36,9 @@ struct FittedModel {
 FittedModel fitted_model(JointStrips const& rows, Regressor const& regressor, std::vector<ShapedEffect> effects,
                          FittedStrips const* sizes, DelayChoice const& delay);
 
+// the same model fitted to these rows with a delay that is given
+FittedModel fitted_at(JointStrips const& rows, JointModel const& model, double late_s);
+
 ModelErrors errors_of(JointStrips const& rows, FittedModel const& by);
 // on held-out folds of training
 double error_on_folds(JointStrips const& rows, FittedModel const& by);

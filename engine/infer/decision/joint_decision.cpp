@@ -144,17 +144,21 @@ class Search {
       asked.open[one.question] = asked.nameable[one.question] = refusal == Refusal::none;
       asked.doubted[one.question] = refusal == Refusal::at_bound || refusal == Refusal::not_predicted;
     }
-    ReplicateTask const task{result_.final, left_beside_effect(tried),
-                             gains,         asked,
-                             kind,          static_cast<std::uint32_t>(result_.facts.steps.size())};
+    SmoothCorrection const correction =
+        best_correction(recording, {recording.base(), recording.residual(), recording.guard()});
+    ReplicateTask const task{result_.final,
+                             left_beside_effect(tried),
+                             gains,
+                             asked,
+                             correction,
+                             kind,
+                             static_cast<std::uint32_t>(result_.facts.steps.size())};
     ReplicateGains const null = replicate_gains(q_, task, questions);
     if (null.chance.replicates() < 2) return false;  // no model that could be followed
     add_those_beyond_chance(tried, beside, questions, findings, null.chance, kind);
     chance_of_delay_.insert(chance_of_delay_.end(), null.delays.begin(), null.delays.end());
     if (result_.facts.steps.empty()) result_.baseline_replicates = null.left;
     result_.final_replicates = null.left;
-    SmoothCorrection const correction =
-        best_correction(recording, {recording.base(), recording.residual(), recording.guard()});
     StepFacts facts{{},
                     null.chance.replicates(),
                     null.source,

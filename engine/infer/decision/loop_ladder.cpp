@@ -69,7 +69,7 @@ class Ladder {
       for (auto const& track : tracks) sum += static_cast<double>(track.samples());
       return sum;
     };
-    return samples(q_.training) / samples(q_.recorded);
+    return samples(q_.fitted) / samples(q_.training);
   }
 
   // each start is followed a little, the best to its end

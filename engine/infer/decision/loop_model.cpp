@@ -145,7 +145,7 @@ namespace {
 
 LoopFit fitted_by(LmOptions const& options, LoopQuestion const& question, LoopPoint const& from, int threads) {
   RolloutModel const begun = from.model(question);
-  LoopFit result{from, fit_rollouts_from(begun, question.training, question.counts, from.starts, options, threads)};
+  LoopFit result{from, fit_rollouts_from(begun, question.fitted, question.counts, from.starts, options, threads)};
   if (result.fit.failed) return result;
   result.point = moved_to(from, result.fit.parameters);
   result.point.starts = result.fit.starts;
@@ -155,7 +155,7 @@ LoopFit fitted_by(LmOptions const& options, LoopQuestion const& question, LoopPo
 LoopFit with_errors(LoopQuestion const& question, LoopFit result) {
   if (result.fit.failed) return result;
   RolloutModel const model = result.point.model(question);
-  result.train = errors_of(model, question.training, question.counts, result.point.starts);
+  result.train = errors_of(model, question.fitted, question.counts, result.point.starts);
   result.validation = errors_of(model, question.validation, question.counts, {});
   return result;
 }
@@ -163,7 +163,7 @@ LoopFit with_errors(LoopQuestion const& question, LoopFit result) {
 }  // namespace
 
 LoopErrors training_errors(LoopQuestion const& question, LoopFit const& fit) {
-  return errors_of(fit.point.model(question), question.recorded, question.counts, fit.point.starts);
+  return errors_of(fit.point.model(question), question.training, question.counts, fit.point.starts);
 }
 
 LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search, int threads) {
@@ -180,7 +180,7 @@ LoopFit followed(LoopQuestion const& question, LoopFit const& fit, int threads) 
 LoopFit with_intervals(LoopQuestion const& question, LoopFit fit, int threads) {
   RolloutModel const model = fit.point.model(question);
   LmOptions const options = options_of(question, LoopSearch::to_its_end);
-  fit.fit = with_intervals(std::move(fit.fit), model, question.training, question.counts, options, threads);
+  fit.fit = with_intervals(std::move(fit.fit), model, question.fitted, question.counts, options, threads);
   return fit;
 }
 
@@ -220,8 +220,8 @@ bool hangs_on(LoopQuestion const& question, LoopFit const& without, LoopFit cons
   LoopFit inside = fit;
   for (LoopSearch const search : {LoopSearch::a_look, LoopSearch::a_little}) {
     RolloutModel const held = inside.point.model(question).with_held(number, middle);
-    inside.fit = fit_rollouts_from(held, question.training, question.counts, inside.point.starts,
-                                   options_of(question, search), 1);
+    inside.fit =
+        fit_rollouts_from(held, question.fitted, question.counts, inside.point.starts, options_of(question, search), 1);
     if (inside.fit.failed) return true;
     inside.point = moved_to(inside.point, inside.fit.parameters);
     inside.point.starts = inside.fit.starts;

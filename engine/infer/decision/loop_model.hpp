@@ -30,8 +30,8 @@ struct LoopQuestion {
   Eigen::VectorXd const& start;  // of the regressor's parameters
   JointScales const& scales;
   LoopSetting const& loop;
-  std::vector<RolloutTrack> const& training;  // what is fitted: of long recordings stretches
-  std::vector<RolloutTrack> const& recorded;  // all of training
+  std::vector<RolloutTrack> const& fitted;    // of long recordings stretches
+  std::vector<RolloutTrack> const& training;  // all of it
   std::vector<RolloutTrack> const& validation;
   CountedChannels counts{true, true};
   std::vector<LoopMove> moves{};

@@ -21,7 +21,7 @@ class Scan {
       : q_(question),
         fit_(fit),
         model_(fit.point.model(question)),
-        unknowns_(model_, question.training, question.counts, question.fits_starts),
+        unknowns_(model_, question.fitted, question.counts, question.fits_starts),
         at_(unknowns_.begin_at(model_.start())) {
     if (fit.point.starts.size() == at_.starts.size()) at_.starts = fit.point.starts;
     plane_ = tangent_at(unknowns_, at_);
@@ -66,7 +66,7 @@ class Scan {
     std::vector<FitPoint> points;
     LoopPoint const first = with_move(q_, fit_.point, move, q_.moves[move].starts.front());
     RolloutModel const one = first.model(q_);
-    FitUnknowns const unknowns(one, q_.training, q_.counts, q_.fits_starts);
+    FitUnknowns const unknowns(one, q_.fitted, q_.counts, q_.fits_starts);
     for (auto const& start : q_.moves[move].starts)
       points.push_back(begun(with_move(q_, fit_.point, move, start).model(q_), unknowns));
     DriveEffect const* const drive = subject.is_of_command() ? &drive_effect_of(subject.key) : nullptr;

@@ -13,7 +13,6 @@
 #include "engine/fit/statistics/replicate_null.hpp"
 #include "engine/infer/decision/delay_decision.hpp"
 #include "engine/infer/decision/row_noise.hpp"
-#include "engine/infer/decision/smooth_correction.hpp"
 #include "engine/simulate/replicate_lanes.hpp"
 
 namespace torquescope {
@@ -38,8 +37,7 @@ class Replicates {
     for (std::size_t i = 0; i < q_.training.size(); ++i)
       makers_.emplace_back(setting, i, recording().on(), recording().chosen());
     result_.source = makers_.front().source();
-    SmoothCorrection const found =
-        best_correction(recording(), {recording().base(), recording().residual(), recording().guard()});
+    SmoothCorrection const& found = task_.correction;
     double const energy = recording().chosen().fit.torque.squaredNorm() / static_cast<double>(recording().on().rows());
     if (found.rms * found.rms >= q_.numbers.delta * q_.numbers.delta * energy) correction_ = found.gain;
   }

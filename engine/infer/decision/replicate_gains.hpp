@@ -17,6 +17,7 @@
 #include "engine/infer/decision/chance.hpp"
 #include "engine/infer/decision/fitted_model.hpp"
 #include "engine/infer/decision/replicate_strips.hpp"
+#include "engine/infer/decision/smooth_correction.hpp"
 
 namespace torquescope {
 
@@ -41,6 +42,7 @@ struct ReplicateTask {
   Eigen::VectorXd const& noise;  // [rows] residual whose spectrum the noise has
   Eigen::VectorXd const& gains;  // of the recording, one for each question
   AskedEffects const& asked;
+  SmoothCorrection const& correction;  // best of the recording beside the model
   FoldKind kind = FoldKind::whole;
   std::uint32_t step = 0;
 };

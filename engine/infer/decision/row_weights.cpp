@@ -93,11 +93,7 @@ JointStrips unweighed_rows(JointStrips rows) {
 }
 
 FittedModel fitted_alike(JointStrips const& rows, FittedModel const& model) {
-  FittedModel made;
-  made.model = std::make_unique<JointModel>(*model.model);
-  made.fitted = std::make_unique<FittedStrips>(*made.model, rows.training,
-                                               DelayChoice{DelaySearch::given, 0.0, model.fitted->chosen().late_s});
-  return made;
+  return fitted_at(rows, *model.model, model.fitted->chosen().late_s);
 }
 
 }  // namespace torquescope

@@ -84,9 +84,9 @@ struct Asked {
   Eigen::VectorXd start = Eigen::Vector4d(0.04, 0.7, 0.07, 0.0);
   JointScales scales{};
   LoopSetting loop{};
-  std::vector<RolloutTrack> training, recorded, validation;  // recorded: all of training
+  std::vector<RolloutTrack> fitted, training, validation;  // training: all of it
   LoopQuestion question(int threads) const {
-    LoopQuestion question{terms, start, scales, loop, training, recorded, validation};
+    LoopQuestion question{terms, start, scales, loop, fitted, training, validation};
     question.moves = drive_moves(loop, training, drive_effects_of(DriveEffectKind::profile));
     question.moves.push_back(effect_move(*find_effect("cogging"), {7.1}, scales));
     question.moves.push_back(effect_move(*find_effect("asymmetric_viscous"), {}, scales));
@@ -101,7 +101,7 @@ struct Asked {
 Asked asked_of(Planted const& planted) {
   Asked asked;
   asked.training.push_back(recorded(planted, 1.0));
-  asked.recorded = asked.training;
+  asked.fitted = asked.training;
   asked.validation.push_back(recorded(planted, 0.83));
   RolloutTrack const& track = asked.training.front();
   asked.scales.rate_hz = rate_hz;
@@ -174,7 +174,7 @@ TEST(LoopLadder, PoolsRecordingsOfOneJoint) {
   Planted const planted{.speed_limit = 1.8};
   Asked asked = asked_of(planted);
   asked.training.push_back(recorded(planted, 0.7));
-  asked.recorded = asked.training;
+  asked.fitted = asked.training;
   LoopFacts const facts = asked.climbed(2);
   ASSERT_EQ(names_of(facts), Names{"goal_speed_limit"});
   EXPECT_NEAR(facts.kept[0].numbers[0].value, 1.8, 0.05);
@@ -183,9 +183,9 @@ TEST(LoopLadder, PoolsRecordingsOfOneJoint) {
 // what lies between the stretches is wrong here: no fit sees it, and the error of training does
 TEST(LoopLadder, FitsStretchesAndTellsErrorsOfAllSamples) {
   Asked asked = asked_of({.speed_limit = 1.8, .seconds = 48.0});
-  RolloutTrack& track = asked.training.front();
+  RolloutTrack& track = asked.fitted.front();
   track = in_stretches(track, track.samples() / 2);
-  RolloutTrack& all = asked.recorded.front();
+  RolloutTrack& all = asked.training.front();
   all.position.array() += 0.1;
   for (auto const& segment : track.segments) all.position.segment(segment.first, segment.samples).array() -= 0.1;
   LoopQuestion question = asked.question(1);
@@ -201,7 +201,7 @@ TEST(LoopLadder, FitsStretchesAndTellsErrorsOfAllSamples) {
 TEST(LoopLadder, SaysThatAModelPredictsNothing) {
   Asked asked = asked_of({});
   asked.training.front().position *= -1.0;
-  asked.recorded = asked.training;
+  asked.fitted = asked.training;
   EXPECT_NE(asked.climbed(1).reason, LoopReason::decides);
 }
 
