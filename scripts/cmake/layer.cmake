@@ -172,13 +172,13 @@ function(tests_together folder)
   set(TESTS_TOGETHER test_${flat} PARENT_SCOPE)
 endfunction()
 
-# unit_test(FOLDER NAME LINKS ...): tests/FOLDER/NAME.cpp becomes the program test_FOLDER_NAME, or a part of that of
+# unit_test(FOLDER NAME LINKS ...): NAME.cpp of this folder becomes the program test_FOLDER_NAME, or a part of that of
 # tests_together(), labelled by its first folder. COST: its seconds, where they are more than ten; ctest starts the
 # longest tests first, so that none is left alone at the end
 function(unit_test folder name)
   cmake_parse_arguments(TEST "" "TIMEOUT;COST" "LINKS;LABELS" ${ARGN})
   string(REPLACE "/" "_" flat ${folder})
-  set(source ${PROJECT_SOURCE_DIR}/tests/${folder}/${name}.cpp)
+  set(source ${CMAKE_CURRENT_SOURCE_DIR}/${name}.cpp)
   if(TESTS_TOGETHER)
     set(target ${TESTS_TOGETHER})
     target_sources(${target} PRIVATE ${source})

@@ -4,7 +4,7 @@ import json
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "concealed"))
+sys.path.append(str(Path(__file__).resolve().parents[3] / "bench" / "boards" / "concealed"))
 
 import gather  # noqa: E402
 import judge  # noqa: E402
@@ -93,7 +93,7 @@ KINDS = {"board": lambda: board(all_cases(), ("lasso_cross_validation", "iid_f_t
 
 
 def real():
-    """real.json of tests/real/run_real.py: what was written by hand stands for what was measured."""
+    """real.json of bench/boards/real/run_real.py: what was written by hand stands for what was measured."""
     case = {"case": "lab_joint_3", "verdict": "class", "names": [{"name": "cogging", "equivalent": ["torque_ripple"]}],
             "rows": "unseen", "before": 0.88, "after": 0.132, "floor": 0.066, "time_left_out": 0.957,
             "energy_left_out": 0.996, "explained": None, "explained_low": None, "explained_high": None,

@@ -6,8 +6,8 @@
                                                                          name
 
 SIMULATE is the program made of simulated_torque.cpp, "" where MuJoCo is not installed: exit code 77, skipped. CONCEALED
-is the folder of tests/concealed, whose scorer judges. The sealed case is an elbow; elbow.xml is its model with numbers
-5 % off.
+is bench/boards/concealed, whose scorer judges. The sealed case is an elbow; elbow.xml is its model with numbers 5 %
+off.
 """
 
 import pathlib

@@ -1,5 +1,5 @@
-"""The scoreboard (board.json of tests/concealed/score.py) with the words of its page. Every number of the page is in
-that file."""
+"""The scoreboard (board.json of bench/boards/concealed/score.py) with the words of its page. Every number of the page
+is in that file."""
 
 import json
 from pathlib import Path
@@ -19,7 +19,7 @@ WORDS = {
     "train": "motion",
     "torquescope": "Torquescope",
 }
-# what stands first in the names of drawn cases (tests/concealed/decoys.hpp, drawn_name.hpp)
+# what stands first in the names of drawn cases (bench/boards/concealed/decoys.hpp, drawn_name.hpp)
 CIRCUMSTANCES = {
     "one_speed": "one speed only",
     "one_direction": "one direction only",

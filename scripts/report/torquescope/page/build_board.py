@@ -47,7 +47,7 @@ def _of_real_alone(real):
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("board", type=Path, help="folder of scripts/proof, or board.json of tests/concealed/score.py")
+    parser.add_argument("board", type=Path, help="folder of scripts/proof, or the board.json that it writes")
     parser.add_argument("--out", type=Path, help="BOARD.html (default: the board's name)")
     options = parser.parse_args(arguments)
     path = options.board / "board.json" if options.board.is_dir() else options.board

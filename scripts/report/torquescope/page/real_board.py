@@ -1,5 +1,5 @@
-"""Recordings of real machines (real.json of tests/real/run_real.py) with the words of their table on the scoreboard's
-page. Every number of it is in that file."""
+"""Recordings of real machines (real.json of bench/boards/real/run_real.py) with the words of their table on the
+scoreboard's page. Every number of it is in that file."""
 
 import json
 from pathlib import Path

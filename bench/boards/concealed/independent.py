@@ -29,7 +29,7 @@ def teeth():
 def main(root):
     teeth()
     root = pathlib.Path(root)
-    plants = [root / "tests" / name for name in PLANTS]
+    plants = [root / "bench" / "boards" / name for name in PLANTS]
     files = [path for plant in plants for path in plant.rglob("*")]
     sources = {p.relative_to(root).as_posix(): p.read_text() for p in files if p.suffix in (".hpp", ".cpp")}
     assert len(sources) > 30, "too few sources found: is this the source tree?"

@@ -42,7 +42,7 @@ def words():
     asked = parser.parse_args()
     if any("=" not in line for line in asked.set):
         parser.error("--set wants KEY=VALUE")
-    asked.plant = asked.plant or asked.torquescope.resolve().parent.parent / "tests/servo/make_servo_records"
+    asked.plant = asked.plant or asked.torquescope.resolve().parent.parent / "bench/boards/servo/make_servo_records"
     for program in (asked.torquescope, asked.plant):
         if not program.is_file():
             parser.error(f"there is no program {program} (--plant names make_servo_records)")

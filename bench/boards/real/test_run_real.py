@@ -2,8 +2,8 @@
 
     test_run_real.py MAKE_CASE
 
-The recordings are of the independent plant (tests/concealed). A stand-in for the engine reads the recording that its
-job names, for a wrong path must show, and says what the case's name is in SAYS.
+The recordings are of the independent plant (concealed). A stand-in for the engine reads the recording that its job
+names, for a wrong path must show, and says what the case's name is in SAYS.
 """
 
 import contextlib

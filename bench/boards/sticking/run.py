@@ -37,7 +37,7 @@ def words():
     asked = parser.parse_args()
     if any("=" not in line for line in asked.set):
         parser.error("--set wants KEY=VALUE")
-    beside = asked.torquescope.resolve().parent.parent / "tests/sticking/make_sticking_case"
+    beside = asked.torquescope.resolve().parent.parent / "bench/boards/sticking/make_sticking_case"
     asked.plant = asked.plant or beside
     for program in (asked.torquescope, asked.plant):
         if not program.is_file():

@@ -33,12 +33,12 @@ def read(path):
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
     except OSError as problem:
-        raise Unusable(f"{path}: {problem.strerror}; tests/real/README.md has the layout of the folder") from problem
+        raise Unusable(f"{path}: {problem.strerror}; see the README beside run_real.py for the layout") from problem
     except ValueError as problem:
         raise Unusable(f"{path}: not JSON ({problem})") from problem
     cases = document.get("cases") if isinstance(document, dict) else None
     if not isinstance(cases, dict) or not cases:
-        raise Unusable(f'{path}: no object "cases" of one object for each job; tests/real/README.md has an example')
+        raise Unusable(f'{path}: no object "cases" of one object for each job; the README beside run_real.py has one')
     return {name: _answer(f"{path}: cases.{name}", fields) for name, fields in cases.items()}
 
 

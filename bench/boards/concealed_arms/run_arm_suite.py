@@ -4,7 +4,7 @@
 
 Names are those of make_arm_case (arm_case.hpp): one a line of a file, or separated by commas. Ended before its time,
 the same command goes on: a verdict stays as long as plant and program are those it was made with. --shard runs a share
-of the cases (tests/concealed/shard.py), each into an OUT of its own; score_arms.py OUT... gathers them.
+of the cases (bench/boards/concealed/shard.py), each into an OUT of its own; score_arms.py OUT... gathers them.
 
     OUT/sealed/FOLDER      the truth; only the scorer looks into it
     OUT/open/FOLDER        job, robot and recordings, the folder the program runs in

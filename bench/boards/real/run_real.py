@@ -168,7 +168,7 @@ def main(arguments):
     options = parser.parse_args(arguments)
     if not options.folder.is_dir():
         print(f"skipped: no folder {options.folder}; real recordings belong to others and are not part of the "
-              "repository (tests/real/README.md)")
+              "repository (bench/boards/real/README.md)")
         return 0
     try:
         known = answers.read(options.folder / "answers.json")
