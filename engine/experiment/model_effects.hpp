@@ -1,7 +1,7 @@
 #pragma once
 // The model of a diagnosed joint effect by effect: which effect each parameter belongs to, and its torque as code.
 //
-// Waves      waves of one effect are told apart by the number behind their parameters (diagnose/named_effects.hpp)
+// Waves      waves of one effect are told apart by the number behind their parameters
 // Held       a shape that the joint itself fixes is not among the estimates; it has the value of its upper bound
 // Threads    free functions
 

@@ -109,7 +109,7 @@ std::vector<std::string> child_names(Handle const& group);  // sorted by bytes
 Handle create_dataset(Handle const& group, std::string const& name, DatasetPlan const& plan);
 // refuses types, filters, storage and sizes that results never have, before anything is allocated
 DatasetInfo describe(Handle const& dataset);
-// one whole chunk as it shall lie on the disk, its filters already applied (chunk_encoder.hpp); first: where it begins
+// one whole chunk as it shall lie on the disk, its filters already applied (chunk_writer.hpp); first: where it begins
 void write_chunk(Handle const& dataset, Shape const& first, std::span<std::byte const> bytes);
 // rows [first, first + count) of the first dimension; `values` holds count * values_per_row elements (texts: padded
 // bytes)

@@ -19,7 +19,8 @@ LONGEST_HEADER = 15  # comment lines; what is longer is a page: engine/diagnose/
 METHOD = "engine/diagnose/METHOD.md"
 
 # files that the examples of engine/README.md tell a reader to write
-EXAMPLES = {"effects/effects/eddy_brake.cpp", "optim/optimisers/random_search.cpp", "data/readers/raw64.cpp"}
+EXAMPLES = {"effects/effects/eddy_brake.cpp", "optim/optimisers/random_search.cpp", "data/readers/raw64.cpp",
+            "engine/a.cpp"}
 
 DOCUMENT = re.compile(r"(?<![\w*{}$])(?:\.{1,2}/|[\w.-]+/)*[\w-]+\.md\b")
 SECTION = re.compile(r"\b(METHOD|THEORY)\.md, ([A-Z][\w ,'-]*)")
@@ -80,6 +81,13 @@ def absent_sources(text, files):
     return sorted(name for name in names if not any(f"/{path}".endswith(f"/{name}") for path in files))
 
 
+def absent_in_comments(text, files):
+    """Names of C++ files in comments that no file of the tree has."""
+    said = " ".join(re.findall(r"//.*", text))
+    names = set(re.findall(r"(?<![\w./<\"-])((?:[\w-]+/)*[\w-]+\.(?:hpp|cpp))(?![\w.\"])", said))
+    return sorted(name for name in names if not any(f"/{path}".endswith(f"/{name}") for path in files))
+
+
 def unknown_sections(text, headings):
     """Sections of the pages that sources name and that none of them has."""
     named = [found for _, found in SECTION.findall(as_prose(text))]
@@ -105,6 +113,7 @@ def teeth():
     assert absent_documents(f"see LESSONS{md} and b/NOTES{md}", [f"a/NOTES{md}"]) == [f"LESSONS{md}", f"b/NOTES{md}"]
     assert absent_documents(f"see ../a/NOTES{md}, NOTES{md}", [f"a/NOTES{md}"]) == []
     assert absent_sources("`b/a.hpp`, `c.cpp`\n```\n`d.hpp`\n```\n", ["x/b/a.hpp"]) == ["c.cpp"]
+    assert absent_in_comments('#include "e.hpp"\n// see b/a.hpp, c.cpp', ["x/b/a.hpp"]) == ["c.cpp"]
     assert unknown_sections(f"// METHOD{md}, The\n// search: {md}", ["The search"]) == []
     assert unknown_sections(f"// METHOD{md}, The riddle", ["The search"]) == ["The riddle"]
     assert PRIVATE.search("LESSONS" + " item 3") and not PRIVATE.search("the lessons of item 3")
@@ -143,7 +152,11 @@ def main(root):
             found += wide_lines(name, (root / name).read_text(encoding="utf-8"))
         own = name.startswith("tests/structure/")  # documents that its own checks make up
         if path.parts[0] in FOLDERS and path.suffix in SOURCES and not own:
-            found += complaints(name, (root / name).read_text(errors="replace"), documents, headings)
+            text = (root / name).read_text(errors="replace")
+            found += complaints(name, text, documents, headings)
+            if path.parts[0] in ("engine", "kernels") and path.suffix in (".cpp", ".hpp"):
+                absent = set(absent_in_comments(text, names)) - EXAMPLES
+                found += [f"{name}: names {one}, which is not in the tree" for one in sorted(absent)]
     print("\n".join(found) or "sources are listed, lines are narrow, documents exist, leading comments are short")
     return 1 if found else 0
 

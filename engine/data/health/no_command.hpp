@@ -6,7 +6,7 @@
 //            external_torque)
 // Copy       the position of a later row, as data sets for imitation call it an action, or of an earlier one: nearly
 //            all rows that move agree to single precision, and no joint follows so well (the position of the same row:
-//            replicates/echoed_reference.hpp)
+//            pipeline/echoed_reference.hpp)
 // Then       the column is not used; of a recording without a torque it stays, for there is nothing else
 // Threads    free functions
 

@@ -3,7 +3,7 @@
 // them.
 //
 // Method     variable projection: the linear parameters of the whole arm are solved for every shape that is tried; the
-//            grid of the diagnosis (search/shape_grid.hpp), then steps of Levenberg and Marquardt from its best point.
+//            grid of the diagnosis (shape_grid.hpp), then steps of Levenberg and Marquardt from its best point.
 //            An effect whose shape is given begins there. Several effects in turn
 // Signs      a parameter that cannot be negative: a shape at which it would be explains nothing
 // Weights    rows are divided by the noise of their joint without the effects

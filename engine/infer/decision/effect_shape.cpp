@@ -12,7 +12,7 @@ namespace {
 
 using UnitShape = std::vector<double>;
 
-// a shape that ends where the effect does not, and where no other limit of physics is (search/reached_bound.hpp)
+// a shape that ends where the effect does not, and where no other limit of physics is
 bool ends_at_bound(EffectParameter const& parameter, ParameterRange const& range, double unit) {
   if (!(range.upper > range.lower)) return false;
   bool const is_zero = parameter.lower.factor == 0.0;

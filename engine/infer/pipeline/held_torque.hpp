@@ -7,7 +7,7 @@
 // Equation   acting: mean over the sample before, of the cubic through the rows around it, (13 (u[k-1] + u[k]) - u[k-2]
 //            - u[k+1]) / 24. to hold: value in the middle of the sample that begins, less what the mean adds to it, (7
 //            (u[k] + u[k+1]) - u[k-1] - u[k+2]) / 12. One after the other gives back cubics
-// Rows       of another timing: channel_timing.hpp. Rows at the ends that the equations do not reach: as read
+// Rows       at the ends that the equations do not reach: as read
 // Units      as the torque
 // Threads    free functions
 

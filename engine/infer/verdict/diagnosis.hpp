@@ -226,8 +226,7 @@ struct JointDiagnosis {
   std::string loop_source;             // "identified", "approximated", "tracking"
   std::string loop_remark;
   double torque_noise = unknown, disturbance = unknown;
-  double friction_wander =
-      unknown;  // share of the level of dry friction per square root of a second (friction_wander.hpp)
+  double friction_wander = unknown;    // share of the level of dry friction per square root of a second
   std::int64_t shape_evaluations = 0;  // spent on shapes, over all steps of the selection
   std::size_t replicates = 0;
   double omnibus_z = 0.0, omnibus_p = 1.0;    // of the whole mismatch, at the first step
