@@ -39,7 +39,8 @@ MUTATIONS = {
     ],
     # 2: no verification of segments
     "experiment/runs/saved_runs.cpp": [
-        ("if (accept(file, request_)) file.verify();", "if (accept(file, request_) && !mutant(2)) file.verify();")
+        ("if (accept(file.facts(), request_)) file.verify();",
+         "if (accept(file.facts(), request_) && !mutant(2)) file.verify();")
     ],
     # 3: acknowledged before fsync
     "experiment/runs/run_keeper.cpp": [
