@@ -1,4 +1,4 @@
-// Smooth motion within a step, for every effect of dry friction; compiled once per instruction set, so no #pragma once.
+// Smooth motion within a step, for every model of dry friction; compiled once per instruction set, so no #pragma once.
 //
 // Equation   ddq = held - weight(q) - damping dq, each over the inertia; weight: its Taylor series about an angle
 // Steps      second-order Taylor

@@ -1,6 +1,5 @@
 #pragma once
-// What is random in a group of replicates, lane by lane: noises, their levels, the friction random walk, sticking
-// effects.
+// What is random in a group of replicates, lane by lane: noises, their levels, the friction random walk, sticking.
 //
 // Random     addressed by (seed, recording, set, stream, replicate, draw): one lane's numbers do not depend on its
 //            neighbours
@@ -83,7 +82,7 @@ class LaneFriction {
   double level_[replicate_lanes];
 };
 
-// an effect for every lane, one draw of the creep and one of the length; bent as of a joint that moves at
+// the sticking of every lane, one draw of the creep and one of the length; bent as of a joint that moves at
 // start_velocity
 void draw_sticking(ReplicateAddress const& address, std::uint32_t group, StickingRange const& range,
                    double start_velocity, LaneSticking& sticking);

@@ -30,7 +30,7 @@ struct Bristle {
     V const one = hn::Set(d, 1.0), half_step = hn::Mul(step, hn::Set(d, 0.5));
     V const slowed = hn::Mul(hn::Mul(step, half), hn::Sub(one, hn::Mul(half_step, damping)));
     V const total = hn::Add(length, hn::Mul(step, hn::Add(creep, slowed)));
-    // neither friction nor an effect of it: s does not matter
+    // neither friction nor sticking: s does not matter
     per_total = hn::Div(one, hn::IfThenElse(hn::Gt(total, hn::Zero(d)), total, one));
   }
 
