@@ -4,7 +4,7 @@ namespace torquescope {
 
 namespace effects {
 #define TORQUESCOPE_CHOICE(name) Effect const& name();
-#include "arm_law_choices.inc"
+#include "arm_effect_choices.inc"
 #include "effect_choices.inc"
 #undef TORQUESCOPE_CHOICE
 }  // namespace effects
@@ -12,7 +12,7 @@ namespace effects {
 std::vector<Effect const*> const& arm_effect_choices() {
   static std::vector<Effect const*> const choices{
 #define TORQUESCOPE_CHOICE(name) &effects::name(),
-#include "arm_law_choices.inc"
+#include "arm_effect_choices.inc"
 #undef TORQUESCOPE_CHOICE
   };
   return choices;
