@@ -88,6 +88,12 @@ def absent_in_comments(text, files):
     return sorted(name for name in names if not any(f"/{path}".endswith(f"/{name}") for path in files))
 
 
+def lists_nobody_writes(text, cmake_text):
+    """Lists of choices() that a source includes and no CMakeLists.txt writes."""
+    included = set(re.findall(r'#include "(\w+)_choices\.inc"', text))
+    return sorted(included - set(re.findall(r"^choices\(\w+ (\w+)", cmake_text, re.MULTILINE)))
+
+
 def unknown_sections(text, headings):
     """Sections of the pages that sources name and that none of them has."""
     named = [found for _, found in SECTION.findall(as_prose(text))]
@@ -114,6 +120,7 @@ def teeth():
     assert absent_documents(f"see ../a/NOTES{md}, NOTES{md}", [f"a/NOTES{md}"]) == []
     assert absent_sources("`b/a.hpp`, `c.cpp`\n```\n`d.hpp`\n```\n", ["x/b/a.hpp"]) == ["c.cpp"]
     assert absent_in_comments('#include "e.hpp"\n// see b/a.hpp, c.cpp', ["x/b/a.hpp"]) == ["c.cpp"]
+    assert lists_nobody_writes('#include "a_choices.inc"\n#include "b_choices.inc"', "choices(t a x y)") == ["b"]
     assert unknown_sections(f"// METHOD{md}, The\n// search: {md}", ["The search"]) == []
     assert unknown_sections(f"// METHOD{md}, The riddle", ["The search"]) == ["The riddle"]
     assert PRIVATE.search("LESSONS" + " item 3") and not PRIVATE.search("the lessons of item 3")
@@ -139,6 +146,7 @@ def main(root):
             found.append(f"{path.relative_to(root)}: sources are listed, not globbed")
     assert wide_lines("a", "█" * 120 + "\n" + "x" * 121) == ["a:2: 121 characters, more than 120"], "no teeth"
     names = tracked(root)
+    lists = "\n".join((root / name).read_text() for name in names if name.endswith("CMakeLists.txt"))
     assert len(names) > 500, "too few files: is this the source tree?"
     documents = [name for name in names if name.endswith(".md")]
     headings = [one for page in (METHOD, THEORY)
@@ -154,6 +162,7 @@ def main(root):
         if path.parts[0] in FOLDERS and path.suffix in SOURCES and not own:
             text = (root / name).read_text(errors="replace")
             found += complaints(name, text, documents, headings)
+            found += [f"{name}: no CMakeLists.txt writes {one}_choices.inc" for one in lists_nobody_writes(text, lists)]
             if path.parts[0] in ("engine", "kernels") and path.suffix in (".cpp", ".hpp"):
                 absent = set(absent_in_comments(text, names)) - EXAMPLES
                 found += [f"{name}: names {one}, which is not in the tree" for one in sorted(absent)]
