@@ -1,11 +1,16 @@
 # A folder is a layer is a target (engine/layers.txt). Two functions build them all.
+option(TORQUESCOPE_TOGETHER "compile several files of most layers at a time (compile_together)" ON)
 
 # Flags of every one of our targets. No -march, no -ffast-math: kernels choose their instruction set at run time, and
 # -ffp-contract=off keeps the bits of everything else independent of it.
 add_library(torquescope_flags INTERFACE)
 target_compile_options(torquescope_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wcast-qual
+  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wcast-qual
   $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Wimplicit-fallthrough -Werror -ffp-contract=off -fno-math-errno)
+# clang also warns of unnamed-namespace names of another file that is compiled together with this one
+if(NOT (CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND TORQUESCOPE_TOGETHER))
+  target_compile_options(torquescope_flags INTERFACE -Wshadow)
+endif()
 # GCC 12 at -O3 sees overruns inside its own std::string and std::vector (bugs 105651, 105329, 105562): these four only
 # warn of code that is not there. Later compilers and clang-tidy keep watch.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
@@ -56,7 +61,6 @@ endfunction()
 # compile_together(TARGET N): N files of a target at a time, where many small ones read the same large headers and make
 # the same templates. A cold build takes minutes less (a layer on Eigen half); presets dev and tidy go file by file,
 # which is quicker after a change and sees every missing include. N is as large as 1.5 GB of memory allow
-option(TORQUESCOPE_TOGETHER "compile several files of most layers at a time" ON)
 function(compile_together target files)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${TORQUESCOPE_TOGETHER} UNITY_BUILD_BATCH_SIZE ${files})
 endfunction()

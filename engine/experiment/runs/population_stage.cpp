@@ -236,7 +236,7 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
           : 1.0 / static_cast<double>(parts.train.regression.rows()),
       // of rollouts nobody knows the floor: a gap is the fitness itself
       [&](std::span<double const> candidate) {
-        return choice.by_rollouts ? fitness_of(*objective, candidate) : stage.floor.gap(candidate);
+        return stage.choice.by_rollouts ? fitness_of(*objective, candidate) : stage.floor.gap(candidate);
       },
       [&](std::int64_t evaluations) { progress.count_evaluations(evaluations); },
       attempt.options.stop_requested,

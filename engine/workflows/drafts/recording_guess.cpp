@@ -119,18 +119,20 @@ bool is_servo(ColumnGuess const& columns) {
 
 void check_named(RawTable const& table, ChosenColumns const& named) {
   for (auto const& [channel, column] : named)
-    validate(std::find(table.names.begin(), table.names.end(), column) != table.names.end(), [&] {
-      auto const text = std::find_if(table.unusable.begin(), table.unusable.end(),
-                                     [&](auto const& one) { return one.name == column; });
-      Problem problem;
-      problem.code = ExitCode::usage;
-      problem.what = text != table.unusable.end()
-                         ? fmt::format("--{} \"{}\" cannot serve: the column {}", channel, column, text->reason)
-                         : fmt::format("--{} \"{}\": {} has no such column", channel, column,
-                                       std::filesystem::path(table.path).filename().string());
-      problem.help = fmt::format("the file has {}", fmt::join(table.names, ", "));
-      return problem;
-    });
+    validate(std::find(table.names.begin(), table.names.end(), column) != table.names.end(),
+             [&table, &channel = channel, &column = column] {
+               auto const text = std::find_if(table.unusable.begin(), table.unusable.end(),
+                                              [&](auto const& one) { return one.name == column; });
+               Problem problem;
+               problem.code = ExitCode::usage;
+               problem.what =
+                   text != table.unusable.end()
+                       ? fmt::format("--{} \"{}\" cannot serve: the column {}", channel, column, text->reason)
+                       : fmt::format("--{} \"{}\": {} has no such column", channel, column,
+                                     std::filesystem::path(table.path).filename().string());
+               problem.help = fmt::format("the file has {}", fmt::join(table.names, ", "));
+               return problem;
+             });
 }
 
 namespace {

@@ -24,7 +24,7 @@ RegressionData rows_with(MatrixXd const& more, ArmSamples const& samples) {
   std::normal_distribution<double> normal(0.0, noise);
   Index const n = more.rows(), joints = more.cols();
   RegressionData rows;
-  rows.arm.emplace();
+  rows.arm.emplace(RegressionData::Arm{});
   rows.arm->scale = Eigen::VectorXd::Ones(joints);
   rows.arm->first_instant = {0, n};
   rows.kept_rate_hz = 1.0 / (samples.time_s[1] - samples.time_s[0]);
