@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/effects/carry_over.hpp"
-#include "engine/fit/statistics/replicate_null.hpp"
 #include "engine/infer/decision/decision_verdict.hpp"
 #include "engine/infer/decision/delay_decision.hpp"
 #include "engine/infer/decision/effect_trial.hpp"
@@ -36,7 +35,8 @@ class Search {
   JointDecision run() && {
     FittedModel plain = fitted_model(result_.rows, q_.regressor, {}, nullptr, free_delay());
     if (q_.weighs_rows) {
-      result_.rows = weighed_rows(q_, std::move(result_.rows), fitted_with({}, *plain.fitted));
+      FittedModel const at_own_sizes = fitted_with({}, *plain.fitted);
+      result_.rows = weighed_rows(q_, std::move(result_.rows), at_own_sizes);
       plain = fitted_model(result_.rows, q_.regressor, {}, nullptr, free_delay());
     }
     result_.baseline = fitted_with({}, *plain.fitted);
@@ -144,13 +144,13 @@ class Search {
       asked.open[one.question] = asked.nameable[one.question] = refusal == Refusal::none;
       asked.doubted[one.question] = refusal == Refusal::at_bound || refusal == Refusal::not_predicted;
     }
-    SmoothCorrection const correction =
-        best_correction(recording, {recording.base(), recording.residual(), recording.guard()});
+    SmoothCorrections const corrections =
+        smooth_corrections(recording, {recording.base(), recording.residual(), recording.guard()});
     ReplicateTask const task{result_.final,
                              left_beside_effect(tried),
                              gains,
                              asked,
-                             correction,
+                             corrections,
                              kind,
                              static_cast<std::uint32_t>(result_.facts.steps.size())};
     ReplicateGains const null = replicate_gains(q_, task, questions);
@@ -166,8 +166,7 @@ class Search {
                     false,
                     visible_share(null, score),
                     std::sqrt(recording.chosen().fit.energy() / rows().training_energy),
-                    {correction.axis, correction.gain, empirical_p(correction.gain, null.corrections),
-                     correction.rms / rows().torque_rms()}};
+                    correction_facts(corrections, null.corrections)};
     facts.effects = effect_facts(questions, findings, tried, null.chance);
     for (auto const& effect : facts.effects) levels_[effect.effect] = effect.level;
     facts.has_taken = take_first(facts.effects, tried);
@@ -243,13 +242,21 @@ class Search {
     judged_ = errors_of(rows(), result_.final).judged();
   }
 
+  // the one least likely by chance; of several, the one of most torque
+  CorrectionFacts correction_facts(SmoothCorrections const& of_recording, Chance const& chance) const {
+    Eigen::VectorXd const p = chance.p(of_recording.gains);
+    Eigen::Index best = 0;
+    for (Eigen::Index i = 1; i < p.size(); ++i)
+      if (p[i] < p[best] || (p[i] == p[best] && of_recording.rms[i] > of_recording.rms[best])) best = i;
+    return {of_recording.axes[static_cast<std::size_t>(best)], of_recording.gains[best], p[best],
+            of_recording.rms[best] / rows().torque_rms()};
+  }
+
   // the torque of an effect of which as many effects as not would come out: S_0 falls by D / n_eff in its logarithm
   // Where no effect is left, smooth functions tell
   double visible_share(ReplicateGains const& null, Score const& score) const {
-    Eigen::VectorXd needed =
-        null.chance.gains.rows() > 0
-            ? null.chance.needed(q_.numbers.alpha)
-            : Eigen::VectorXd::Constant(1, value_of_chance(null.corrections, q_.numbers.correction_alpha()));
+    Eigen::VectorXd needed = null.chance.gains.rows() > 0 ? null.chance.needed(q_.numbers.alpha)
+                                                          : null.corrections.needed(q_.numbers.correction_alpha());
     std::nth_element(needed.begin(), needed.begin() + needed.size() / 2, needed.end());
     Eigen::VectorXd const left = score.left_on_rows_with({}, 0);
     double const fall = std::expm1(needed[needed.size() / 2] / effective_samples(left));

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "engine/base/parallel.hpp"
-#include "engine/fit/statistics/replicate_null.hpp"
 #include "engine/infer/decision/delay_decision.hpp"
 #include "engine/infer/decision/row_noise.hpp"
 #include "engine/simulate/replicate_lanes.hpp"
@@ -37,9 +36,8 @@ class Replicates {
     for (std::size_t i = 0; i < q_.training.size(); ++i)
       makers_.emplace_back(setting, i, recording().on(), recording().chosen());
     result_.source = makers_.front().source();
-    SmoothCorrection const& found = task_.correction;
     double const energy = recording().chosen().fit.torque.squaredNorm() / static_cast<double>(recording().on().rows());
-    if (found.rms * found.rms >= q_.numbers.delta * q_.numbers.delta * energy) correction_ = found.gain;
+    least_rms_ = q_.numbers.delta * std::sqrt(energy);
   }
 
   ReplicateGains run(std::vector<EffectQuestion>& questions) && {
@@ -73,8 +71,11 @@ class Replicates {
     if (count() < 2) return false;
     Eigen::VectorXd const p = result_.chance.p(task_.gains);
     double least = std::numeric_limits<double>::infinity();
-    bool are_told =
-        !correction_ || is_told(empirical_p(*correction_, result_.corrections), q_.numbers.correction_alpha());
+    Eigen::VectorXd const p_of_corrections = result_.corrections.p(task_.corrections.gains);
+    bool are_told = true;
+    for (Eigen::Index i = 0; i < p_of_corrections.size(); ++i)
+      if (task_.corrections.rms[i] >= least_rms_)
+        are_told = are_told && is_told(p_of_corrections[i], q_.numbers.correction_alpha());
     for (Eigen::Index effect = 0; effect < p.size(); ++effect) {
       auto const at = static_cast<std::size_t>(effect);
       if (task_.asked.nameable[at]) least = std::min(least, p[effect]);
@@ -166,11 +167,12 @@ class Replicates {
     for (std::size_t t = 0; t < fitted.size(); ++t)
       result_.left.col(static_cast<Eigen::Index>(before + t)) = fitted[t].residual().head(result_.left.rows());
     result_.chance.add(gains_of_replicates(questions, recording(), fitted, task_.kind, q_.threads));
-    result_.corrections.resize(before + fitted.size());
+    Eigen::MatrixXd corrections(task_.corrections.gains.size(), static_cast<Eigen::Index>(fitted.size()));
     parallel_for(fitted.size(), q_.threads, [&](std::size_t t, int) {
       Score const score(fitted[t].base(), fitted[t].residual(), fitted[t].guard());
-      result_.corrections[before + t] = best_correction(fitted[t], score).gain;
+      corrections.col(static_cast<Eigen::Index>(t)) = smooth_corrections(fitted[t], score).gains;
     });
+    result_.corrections.add(corrections);
   }
 
   // what the recording leaves beyond replicates without noise; of each recording
@@ -208,7 +210,7 @@ class Replicates {
   std::vector<ReplicateMaker> makers_{};
   std::vector<Beyond> beyond_{};
   std::vector<OctavePowers> noise_{};
-  std::optional<double> correction_{};  // D of smooth functions, of the recording; none: too small to matter
+  double least_rms_ = 0.0;  // of a smooth function that matters
   ReplicateGains result_{};
 };
 

@@ -23,8 +23,8 @@ namespace torquescope {
 
 struct ReplicateGains {
   Chance chance{};
-  std::vector<double> corrections{};  // D of smooth functions (smooth_correction.hpp)
-  std::vector<double> delays{};       // D of the delay that a replicate seems to have (delay_decision.hpp)
+  Chance corrections{};          // of smooth functions (smooth_correction.hpp)
+  std::vector<double> delays{};  // D of the delay that a replicate seems to have (delay_decision.hpp)
   ReplicateSource source = ReplicateSource::measured_motion;
   Eigen::MatrixXd left{};  // [rows of the first recording][replicates] residuals
 };
@@ -42,7 +42,7 @@ struct ReplicateTask {
   Eigen::VectorXd const& noise;  // [rows] residual whose spectrum the noise has
   Eigen::VectorXd const& gains;  // of the recording, one for each question
   AskedEffects const& asked;
-  SmoothCorrection const& correction;  // best of the recording beside the model
+  SmoothCorrections const& corrections;  // of the recording beside the model
   FoldKind kind = FoldKind::whole;
   std::uint32_t step = 0;
 };

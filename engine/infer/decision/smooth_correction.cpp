@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/fit/statistics/hat_functions.hpp"
+#include "engine/infer/decision/memory_columns.hpp"
 
 namespace torquescope {
 namespace {
@@ -52,6 +53,17 @@ std::vector<RowRange> where_to_ask(FittedStrips const& fitted) {
 
 using AxisColumns = std::pair<SignatureAxis, Eigen::MatrixXd>;
 
+Eigen::MatrixXd memory_on_rows(FittedStrips const& fitted, double frequency_hz) {
+  Eigen::MatrixXd all(fitted.on().rows(), 4);
+  Eigen::Index first = 0;
+  for (auto const& strip : fitted.strips()) {
+    Eigen::MatrixXd const rows = memory_columns(strip, frequency_hz);
+    all.middleRows(first, rows.rows()) = rows;
+    first += rows.rows();
+  }
+  return all;
+}
+
 std::vector<AxisColumns> columns_of_axes(FittedStrips const& fitted) {
   Eigen::VectorXd const q = at_rows(
       fitted, [](Strip const& one) -> auto const& { return one.motion.q; });
@@ -70,6 +82,8 @@ std::vector<AxisColumns> columns_of_axes(FittedStrips const& fitted) {
                                 {SignatureAxis::acceleration, hats(ddq, knots)},
                                 {SignatureAxis::time, hats(time, knots)}};
   for (auto& [axis, columns] : axes) columns = weighed(fitted, std::move(columns));
+  for (double const frequency_hz : memory_frequencies(fitted.strips()))
+    axes.emplace_back(SignatureAxis::frequency, memory_on_rows(fitted, frequency_hz));
   return axes;
 }
 
@@ -81,19 +95,22 @@ Eigen::MatrixXd only_in(RowRange const& range, Eigen::MatrixXd const& columns) {
 
 }  // namespace
 
-SmoothCorrection best_correction(FittedStrips const& fitted, Score const& score, Eigen::Index signal) {
+SmoothCorrections smooth_corrections(FittedStrips const& fitted, Score const& score) {
   std::vector<AxisColumns> const axes = columns_of_axes(fitted);
-  SmoothCorrection best;
-  for (auto const& range : where_to_ask(fitted))
+  std::vector<RowRange> const ranges = where_to_ask(fitted);
+  auto const n = static_cast<Eigen::Index>(axes.size() * ranges.size());
+  SmoothCorrections all{{}, Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  Eigen::VectorXd const residual = score.signals().col(0);
+  for (auto const& range : ranges)
     for (auto const& [axis, columns] : axes) {
       OrthonormalGroup const group = orthonormal_group(
           only_in(range, columns), score.basis(), std::vector<bool>(static_cast<std::size_t>(columns.cols()), false));
-      double const gain = score.gain(group, signal);
-      if (gain <= best.gain) continue;
-      double const energy = (group.q.transpose() * score.signals().col(signal)).squaredNorm();
-      best = {axis, gain, std::sqrt(energy / static_cast<double>(score.signals().rows()))};
+      auto const at = static_cast<Eigen::Index>(all.axes.size());
+      all.axes.push_back(axis);
+      all.gains[at] = score.gain(group, 0);
+      all.rms[at] = std::sqrt((group.q.transpose() * residual).squaredNorm() / static_cast<double>(residual.size()));
     }
-  return best;
+  return all;
 }
 
 }  // namespace torquescope

@@ -1,8 +1,10 @@
 #pragma once
-// Whether anything is left that goes with the motion, whatever its form: D of smooth functions of one axis each.
+// Whether anything is left that goes with the motion, whatever its form: D of smooth functions of one axis each, and of
+// what remembers the motion (memory_columns.hpp), for which the axis is the frequency.
 //
-// Axes       position, position where the joint moves back, velocity, acceleration, time; piecewise linear, 12 knots
-// Rows       of the motion at the rows, not filtered; of all recordings together, and of each alone
+// Axes       position, position where the joint moves back, velocity, acceleration, time: of the motion at the rows, as
+//            it is; piecewise linear, 12 knots
+// Rows       of all recordings together, and of each alone
 // Threads    pure functions
 // Source     engine/infer/decision/THEORY.md, Adequacy
 
@@ -14,13 +16,13 @@
 
 namespace torquescope {
 
-struct SmoothCorrection {
-  SignatureAxis axis = SignatureAxis::position;
-  double gain = 0.0;  // D
-  double rms = 0.0;   // torque
+// one after another, in an order that a recording and its replicates share
+struct SmoothCorrections {
+  std::vector<SignatureAxis> axes{};
+  Eigen::VectorXd gains{};  // D
+  Eigen::VectorXd rms{};    // torque
 };
 
-// the one that gains most
-SmoothCorrection best_correction(FittedStrips const& fitted, Score const& score, Eigen::Index signal = 0);
+SmoothCorrections smooth_corrections(FittedStrips const& fitted, Score const& score);
 
 }  // namespace torquescope
