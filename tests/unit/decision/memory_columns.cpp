@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
-#include "engine/infer/decision/fitted_model.hpp"
-#include "engine/infer/decision/smooth_correction.hpp"
-#include "unit/decision/plants.hpp"
+#include "unit/decision/largest_correction.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;
@@ -32,26 +32,6 @@ std::function<double(double t)> load_torque(GivenJoint const& joint, double freq
     speed += step_s * change(t + 0.5 * step_s, middle_x, middle_v);
   }
   return [values](double t) { return (*values)[static_cast<std::size_t>(std::max(0.0, t) / 5e-5)]; };
-}
-
-struct Best {
-  SignatureAxis axis = SignatureAxis::position;
-  double gain = 0.0, rms = 0.0;
-};
-
-// the one of largest D
-Best correction_of(GivenJoint const& joint) {
-  std::vector<Recording> const training{recording_of(joint)};
-  Regressor const terms = joint_terms();
-  FilterOptions const filter = ten_hertz();
-  Section const section{};
-  JointStrips const rows = joint_strips({training, {}, terms, filter, section});
-  FittedModel const model = fitted_model(rows, terms, {}, nullptr, {DelaySearch::everywhere, 0.15});
-  SmoothCorrections const all =
-      smooth_corrections(*model.fitted, {model.fitted->base(), model.fitted->residual(), model.fitted->guard()});
-  Eigen::Index most = 0;
-  all.gains.maxCoeff(&most);
-  return {all.axes[static_cast<std::size_t>(most)], all.gains[most], all.rms[most]};
 }
 
 TEST(MemoryColumns, AtConstantSpeedTheWearIsTheSpeedAndNoLoadMoves) {
@@ -90,10 +70,10 @@ TEST(MemoryColumns, FrequenciesGoFromTenPeriodsToHalfOfTheCutOff) {
 
 TEST(MemoryColumns, ALoadOnASpringStandsOutWhereNoFunctionOfTheMotionDoes) {
   GivenJoint joint;
-  Best const sound = correction_of(joint);
+  LargestCorrection const sound = largest_correction({recording_of(joint)});
   auto const load = load_torque(joint, 1.3, 0.02);
   joint.timed = [load](double t, double) { return load(t); };
-  Best const loaded = correction_of(joint);
+  LargestCorrection const loaded = largest_correction({recording_of(joint)});
   EXPECT_EQ(loaded.axis, SignatureAxis::frequency);
   EXPECT_GT(loaded.gain, sound.gain);
   EXPECT_LT(sound.rms, 0.001);
