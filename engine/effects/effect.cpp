@@ -32,7 +32,7 @@ Effect::Effect(EffectDescription description) : description_(std::move(descripti
   auto const& all = description_.parameters;
   auto const first_shape = std::find_if(all.begin(), all.end(), is_shape);
   n_linear_ = static_cast<std::size_t>(first_shape - all.begin());
-  TORQUESCOPE_EXPECT(n_linear_ >= 1 && n_linear_ <= (is_of_whole_arm() ? 10u : 8u));
+  TORQUESCOPE_EXPECT(n_linear_ >= 1 && (description_.is_given || n_linear_ <= (is_of_whole_arm() ? 10u : 8u)));
   TORQUESCOPE_EXPECT(std::all_of(first_shape, all.end(), is_shape));
   TORQUESCOPE_EXPECT(!description_.families.empty());
 }

@@ -4,7 +4,7 @@
 // Equation   tau_effect = columns(input, shape) * linear parameters
 // Parameters linear ones first (solved for), then shapes (searched within shape_bounds(scales)). Bounds of linear ones
 //            are plausible sizes, except 0, which is physics (sign())
-// Shapes     columns: n_samples x n_linear(), column-major; n_linear() <= 8, of a whole arm 10; full
+// Shapes     columns: n_samples x n_linear(), column-major; n_linear() <= 8, of a whole arm 10, given any; full
 //            rate, before the parallel filter
 // Units      SI of a revolute joint (N m, rad); unit_for() gives the prismatic ones (N, m)
 // Threads    const objects, any number of threads; a runner belongs to one
