@@ -74,13 +74,13 @@ Eigen::MatrixXd needed_torque(ArmPlant plant, ArmTrack const& track, InstrumentP
   return torque;
 }
 
-ReplicatedLoop loop_of(Recording const& joint, VectorXd const& needed) {
+ArmJointLoop loop_of(Recording const& joint, VectorXd const& needed) {
   auto const fit = [&](VectorXd const& torque) {
     return fit_controller({joint.time_s, joint.reference, joint.position, torque});
   };
   auto const alone = fit(joint.torque), beside = fit(joint.torque - needed);
   bool const is_fed_forward = beside.noise.std < alone.noise.std;
-  ReplicatedLoop loop;
+  ArmJointLoop loop;
   loop.controller = is_fed_forward ? beside.controller : alone.controller;
   loop.reference = joint.reference;
   if (is_fed_forward) loop.fed_forward = needed;
@@ -103,7 +103,7 @@ Error ran_away(std::string const& recording) {
 
 RecordedRows rows_of(ArmTrack const& track, InstrumentPlan const& plan, VectorXd const& parameters) {
   auto const needed = needed_torque(plant_of(plan.model, parameters), track, plan);
-  std::vector<ReplicatedLoop> loops;
+  std::vector<ArmJointLoop> loops;
   for (std::size_t j = 0; j < track.joints.size(); ++j)
     loops.push_back(loop_of(track.joints[j], needed.col(static_cast<Index>(j))));
   auto const& first = track.joints.front();

@@ -14,7 +14,7 @@ using Eigen::Index;
 // one joint's controller, and what it remembers
 class LoopRunner {
  public:
-  LoopRunner(ReplicatedLoop const& loop, double rate_hz)
+  LoopRunner(ArmJointLoop const& loop, double rate_hz)
       : loop_(loop), reference_(loop.reference), open_(open_part(loop.controller, loop.reference)) {
     if (loop.fed_forward.size() > 0) open_ += loop.fed_forward;
     // before the start the joint came along at its first velocity
@@ -37,7 +37,7 @@ class LoopRunner {
   }
 
  private:
-  ReplicatedLoop const& loop_;
+  ArmJointLoop const& loop_;
   ReferenceSignal reference_;
   Eigen::VectorXd open_;
   std::vector<double> seen_;  // the newest first
@@ -46,7 +46,7 @@ class LoopRunner {
 
 }  // namespace
 
-std::optional<Eigen::MatrixXd> replicate_arm(ArmPlant plant, std::vector<ReplicatedLoop> const& loops, double rate_hz,
+std::optional<Eigen::MatrixXd> replicate_arm(ArmPlant plant, std::vector<ArmJointLoop> const& loops, double rate_hz,
                                              double step_s) {
   TORQUESCOPE_EXPECT(static_cast<Index>(loops.size()) == plant.size() && rate_hz > 0.0 && step_s > 0.0);
   Index const n = loops.front().reference.size(), joints = plant.size();

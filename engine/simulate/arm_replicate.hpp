@@ -19,7 +19,7 @@
 namespace torquescope {
 
 // of one joint
-struct ReplicatedLoop {
+struct ArmJointLoop {
   LoopController controller{};
   Eigen::VectorXd reference{};    // [n]
   Eigen::VectorXd fed_forward{};  // [n] beside the controller, or empty
@@ -28,7 +28,7 @@ struct ReplicatedLoop {
 };
 
 // positions, n x N
-std::optional<Eigen::MatrixXd> replicate_arm(ArmPlant plant, std::vector<ReplicatedLoop> const& loops, double rate_hz,
+std::optional<Eigen::MatrixXd> replicate_arm(ArmPlant plant, std::vector<ArmJointLoop> const& loops, double rate_hz,
                                              double step_s);
 
 }  // namespace torquescope

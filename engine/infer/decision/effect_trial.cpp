@@ -47,12 +47,13 @@ TriedEffect tried(DecisionQuestion const& question, TrialModel const& beside, Ef
 
 }  // namespace
 
-std::vector<std::size_t> by_value(Eigen::VectorXd const& values) {
+std::vector<std::size_t> places_of_largest(Eigen::VectorXd const& values, Eigen::Index most) {
   std::vector<std::size_t> order(static_cast<std::size_t>(values.size()));
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return values[static_cast<Eigen::Index>(a)] > values[static_cast<Eigen::Index>(b)];
   });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(most)));
   return order;
 }
 

@@ -30,8 +30,11 @@ struct TriedEffect {
   FittedModel with{};  // the model beside the effect; empty where the effect gains nothing
 };
 
-// places in order of falling value
-std::vector<std::size_t> by_value(Eigen::VectorXd const& values);
+// largest first; of all values, or of so many
+std::vector<std::size_t> places_of_largest(Eigen::VectorXd const& values, Eigen::Index most);
+inline std::vector<std::size_t> places_of_largest(Eigen::VectorXd const& values) {
+  return places_of_largest(values, values.size());
+}
 Eigen::VectorXd gains_of(std::vector<EffectFinding> const& findings);
 
 // in the order of `which`
