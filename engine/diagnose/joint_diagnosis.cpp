@@ -28,8 +28,8 @@
 #include "engine/infer/decision/decision_words.hpp"
 #include "engine/infer/decision/delay_decision.hpp"
 #include "engine/infer/decision/joint_decision.hpp"
-#include "engine/infer/decision/kept_errors.hpp"
 #include "engine/infer/decision/loop_stage.hpp"
+#include "engine/infer/decision/names_on_rows.hpp"
 #include "engine/infer/locate/largest_parts.hpp"
 #include "engine/infer/locate/mismatch_map.hpp"
 #include "engine/infer/pipeline/echoed_reference.hpp"
@@ -47,18 +47,23 @@ std::int64_t replicates_for(DecisionNumbers const& numbers) {
   return std::max(numbers.replicates, static_cast<std::int64_t>(std::ceil(1.0 / numbers.correction_alpha() - 1e-9)));
 }
 
-// candidates that some named effect could be as well
-void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect> const& effects) {
-  for (auto& candidate : candidates)
+// what the table of candidates says of names, and of effects that some name could be as well
+void mark_candidates(std::vector<Candidate>& candidates, std::vector<NamedEffect> const& effects) {
+  for (auto& candidate : candidates) {
+    bool const was_named = candidate.decision == Decision::named;
+    if (was_named) candidate.decision = Decision::rejected;
     for (auto const& effect : effects) {
-      // one of a class that holds physics too is no fault of the recording yet
-      if (candidate.name == effect.name && candidate.decision == Decision::measurement && !is_fault(effect))
+      if (candidate.name == effect.name) {
         candidate.decision = Decision::named;
-      if (std::find(effect.equivalent.begin(), effect.equivalent.end(), candidate.name) == effect.equivalent.end())
-        continue;
-      candidate.decision = Decision::equivalent;
-      candidate.reason = "this motion cannot tell it from " + effect.name;
+        candidate.reason.clear();
+      } else if (std::find(effect.equivalent.begin(), effect.equivalent.end(), candidate.name) !=
+                 effect.equivalent.end()) {
+        candidate.decision = Decision::equivalent;
+        candidate.reason = "this motion cannot tell it from " + effect.name;
+      }
     }
+    if (was_named && candidate.decision == Decision::rejected) candidate.reason = "the final model does without it";
+  }
 }
 
 class JointWork {
@@ -179,9 +184,11 @@ class JointWork {
       tell_errors_with_names(facts.final);
       tell_effects(decision);
       keep_standing(joint_, facts, loop, names);
-      // the scan's model is not that of these names
-      if (std::isnan(joint_.augmented_train_relerr))
-        if (auto const errors = kept_errors(question, decision, loop)) tell_errors_with_names(*errors);
+      if (names.of_other_model)
+        if (auto const errors = errors_of_names(question, decision, loop, names)) {
+          tell_errors_with_names(*errors);
+          of.is_complete = of.is_complete && !leave_more(*errors, facts.final, input_.numbers.least_fall);
+        }
       if (names.command_delay && !facts.delay.is_named) tell_errors_with_delay(facts);
       // a torque that comes before its motion is a command that the drive follows late: no fault of a channel. One that
       // comes after it is no physics, whatever else is named beside it
@@ -192,6 +199,7 @@ class JointWork {
       of.has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
                                  [](NamedEffect const& one) { return !one.equivalent.empty(); });
     }
+    mark_candidates(joint_.candidates, joint_.effects);
     diagnosis_.verdict = verdict_from(of);
     tell_timing(decision);
     tell_refitted(question);
@@ -301,7 +309,6 @@ class JointWork {
     for (std::size_t i = 0; i < decision.facts.accepted.size(); ++i) tell_effect(decision, rows, i);
     if (decision.facts.delay.is_named) tell_delay(decision.facts.delay);
     tell_in_recorded_unit(joint_);
-    mark_equivalent(joint_.candidates, joint_.effects);
     for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
   }
 

@@ -20,15 +20,37 @@ NamedEffect named_command(LoopSubject const& subject) {
   return named;
 }
 
-NamedEffect named_move(KeptMove const& move) {
+// class and numbers as simulations found them; waves of one effect are one name
+NamedEffect as_simulated(NamedEffect named, LoopSubject const& subject, LoopFacts const& loop) {
+  named.parameters.clear();
+  named.equivalent.clear();
+  std::size_t waves = 0;
+  for (auto const& move : loop.kept) {
+    if (!(move.subject == subject)) continue;
+    std::string const number = ++waves > 1 ? "_" + std::to_string(waves) : "";
+    for (auto const& rival : move.rivals)
+      if (std::find(named.equivalent.begin(), named.equivalent.end(), name_of(rival)) == named.equivalent.end())
+        named.equivalent.push_back(name_of(rival));
+    for (auto const& one : move.numbers)
+      named.parameters.push_back(
+          {(subject.is_of_command() ? named.name : one.name) + number, one.unit, one.value, one.lower, one.upper});
+  }
+  return named;
+}
+
+NamedEffect named_move(KeptMove const& move, LoopFacts const& loop) {
   NamedEffect named = move.subject.is_of_command() ? named_command(move.subject) : named_after(*move.subject.effect);
   named.p = named.q = move.p;
   named.z = std::sqrt(std::max(move.gain, 0.0));
-  for (auto const& rival : move.rivals) named.equivalent.push_back(name_of(rival));
-  for (auto const& one : move.numbers)
-    named.parameters.push_back(
-        {move.subject.is_of_command() ? named.name : one.name, one.unit, one.value, one.lower, one.upper});
-  return named;
+  return as_simulated(std::move(named), move.subject, loop);
+}
+
+bool is_kept_itself(LoopFacts const& loop, LoopSubject const& subject) {
+  return std::any_of(loop.kept.begin(), loop.kept.end(), [&](KeptMove const& move) { return move.subject == subject; });
+}
+
+bool has_name(std::vector<NamedEffect> const& effects, std::string const& name) {
+  return std::any_of(effects.begin(), effects.end(), [&](NamedEffect const& one) { return one.name == name; });
 }
 
 }  // namespace
@@ -37,26 +59,28 @@ void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts c
                    StandingNames const& names) {
   if (!names.by_loop) return;
   std::vector<NamedEffect> standing;
-  bool const had_all = std::find(names.effects.begin(), names.effects.end(), false) == names.effects.end();
   bool const keeps_delay = scan.delay.is_named && names.has_delay && !names.command_delay;
-  for (auto& effect : joint.effects) {
-    bool is_effect = false, stands = false;
-    // waves of one effect are one name
+  for (auto& named : joint.effects) {
+    Effect const* effect = nullptr;
+    bool stands = false;
     for (std::size_t i = 0; i < scan.accepted.size(); ++i) {
-      if (scan.accepted[i].effect->name() != effect.name) continue;
-      is_effect = true;
+      if (scan.accepted[i].effect->name() != named.name) continue;
+      effect = scan.accepted[i].effect;
       stands = stands || names.effects[i];
     }
-    if (is_effect ? stands : keeps_delay) standing.push_back(std::move(effect));
+    bool const is_simulated = effect != nullptr && names.of_other_model && is_kept_itself(loop, {effect});
+    if (effect != nullptr ? stands : keeps_delay)
+      standing.push_back(is_simulated ? as_simulated(std::move(named), {effect}, loop) : std::move(named));
   }
   for (auto const& move : loop.kept) {
     bool const is_delay = move.subject.is_of_command() && move.subject.key == LoopKey::command_delay_s;
     bool const is_added = std::any_of(names.added.begin(), names.added.end(),
                                       [&](KeptMove const& one) { return one.subject == move.subject; });
-    if (is_delay || is_added) standing.push_back(named_move(move));
+    NamedEffect named = named_move(move, loop);
+    if ((is_delay || is_added) && !has_name(standing, named.name)) standing.push_back(std::move(named));
   }
   joint.effects = std::move(standing);
-  if (had_all && names.added.empty()) return;
+  if (!names.of_other_model) return;
   // the scan's model is none of these names': numbers and errors are the simulations' own, or none
   joint.augmented.clear();
   for (auto const& one : loop.numbers)

@@ -16,10 +16,10 @@
 
 namespace torquescope {
 
-// shape: where it begins; what it leaves open begins at none of it, or in the middle
 // as one more effect of a simulated joint: not of the model already, no given column, none of an arm or of timing
 bool can_be_simulated(Effect const& effect, Regressor const& regressor);
 
+// shape: where it begins; what it leaves open begins at none of it, or in the middle
 LoopMove effect_move(Effect const& effect, std::vector<double> const& shape, JointScales const& scales);
 std::vector<LoopMove> effect_moves(DecisionFacts const& scan, Regressor const& regressor, JointScales const& scales,
                                    DecisionNumbers const& numbers);

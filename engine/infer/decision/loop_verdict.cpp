@@ -10,36 +10,67 @@ bool StandingNames::any() const {
   return has_delay || !added.empty() || std::find(effects.begin(), effects.end(), true) != effects.end();
 }
 
+namespace {
+
+LoopSubject const command_delay{nullptr, LoopKey::command_delay_s};
+
+bool is_of(KeptMove const& move, LoopSubject const& subject) { return move.subject == subject; }
+
+bool is_of_class(KeptMove const& move, LoopSubject const& subject) {
+  return is_of(move, subject) || std::find(move.rivals.begin(), move.rivals.end(), subject) != move.rivals.end();
+}
+
+using Tells = bool (*)(KeptMove const&, LoopSubject const&);
+
+// which effects of the scan a kept move tells
+std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop, Tells tells) {
+  bool const has_command =
+      std::any_of(loop.kept.begin(), loop.kept.end(), [](auto const& move) { return move.subject.is_of_command(); });
+  std::vector<bool> told;
+  for (auto const& facts : scan.accepted) {
+    LoopSubject const subject{facts.effect};
+    bool const is_told =
+        std::any_of(loop.kept.begin(), loop.kept.end(), [&](auto const& move) { return tells(move, subject); });
+    // other recordings say nothing of a clock: only another explanation speaks against it
+    bool const runs_by_itself = is_clock_bound(*facts.effect) && !has_command && !loop.is_chance(subject);
+    told.push_back(is_told || (runs_by_itself && !loop.is_kept(subject)));
+  }
+  return told;
+}
+
+// kept moves that tell no effect of the scan
+std::vector<KeptMove> further_moves(DecisionFacts const& scan, LoopFacts const& loop, Tells tells) {
+  std::vector<KeptMove> further;
+  for (auto const& move : loop.kept) {
+    bool const is_told = std::any_of(scan.accepted.begin(), scan.accepted.end(),
+                                     [&](EffectFacts const& facts) { return tells(move, {facts.effect}); });
+    if (!is_told && !(move.subject == command_delay)) further.push_back(move);
+  }
+  return further;
+}
+
+}  // namespace
+
 StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop) {
   StandingNames names;
   names.by_loop = loop.decides();
   names.effects.assign(scan.accepted.size(), true);
   names.has_delay = scan.delay.is_named;
   if (!names.by_loop) return names;
-  bool const has_command = std::any_of(loop.kept.begin(), loop.kept.end(),
-                                       [](KeptMove const& move) { return move.subject.is_of_command(); });
-  for (std::size_t i = 0; i < scan.accepted.size(); ++i) {
-    Effect const* const effect = scan.accepted[i].effect;
-    // other recordings say nothing of a clock: only another explanation speaks against it
-    names.effects[i] = loop.is_kept({effect}) || (is_clock_bound(*effect) && !has_command && !loop.is_chance({effect}));
+  names.effects = told_effects(scan, loop, is_of_class);
+  names.added = further_moves(scan, loop, is_of_class);
+  bool const has_all = std::find(names.effects.begin(), names.effects.end(), false) == names.effects.end();
+  names.of_other_model = !has_all || !names.added.empty();
+  if (names.of_other_model) {
+    names.effects = told_effects(scan, loop, is_of);
+    names.added = further_moves(scan, loop, is_of);
   }
-  LoopSubject const delay{nullptr, LoopKey::command_delay_s};
-  bool const asks_command = loop.form != LoopForm::identified;
+  auto const delay = std::find_if(loop.kept.begin(), loop.kept.end(),
+                                  [](KeptMove const& move) { return move.subject == command_delay; });
+  if (delay != loop.kept.end()) names.command_delay = delay->numbers.front();
   // one that is a rival of another name stands in its class
-  if (asks_command)
-    names.has_delay =
-        std::any_of(loop.kept.begin(), loop.kept.end(), [&](KeptMove const& move) { return move.subject == delay; });
-  for (auto const& move : loop.kept) {
-    if (move.subject == delay) {
-      names.command_delay = move.numbers.front();
-      continue;
-    }
-    auto const is_told = [&](EffectFacts const& facts) {
-      LoopSubject const subject{facts.effect};
-      return move.subject == subject || std::find(move.rivals.begin(), move.rivals.end(), subject) != move.rivals.end();
-    };
-    if (std::none_of(scan.accepted.begin(), scan.accepted.end(), is_told)) names.added.push_back(move);
-  }
+  bool const asks_command = loop.form != LoopForm::identified;
+  if (asks_command) names.has_delay = names.command_delay.has_value();
   return names;
 }
 

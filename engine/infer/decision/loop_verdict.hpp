@@ -7,6 +7,8 @@
 //            same, unless simulations call it chance, or kept something on the command side, which it may have stood
 //            for
 // Chance     an effect that simulations asked and replicates reached says nothing against the scan's model, either
+// Classes    the scan tells an effect from its rivals beside its own model. Where the names are of another model, those of
+//            simulations are told: an effect that they only cannot tell from one they kept stands in its class
 // Delay      a command delay that was kept and the scan's delay are one thing, "delay"; where the command side was
 //            asked and none was kept, the scan's delay is none
 // Threads    pure function
@@ -22,6 +24,7 @@ namespace torquescope {
 
 struct StandingNames {
   bool by_loop = false;           // simulations decided
+  bool of_other_model = false;    // than the scan's: numbers and classes are those of simulations
   std::vector<bool> effects{};    // of each that the scan took
   std::vector<KeptMove> added{};  // of the ladder, without an effect that the scan took
   bool has_delay = false;

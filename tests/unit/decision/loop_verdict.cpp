@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/infer/decision/decision_verdict.hpp"
+#include "engine/infer/decision/names_on_rows.hpp"
 
 using namespace torquescope;
 
@@ -54,6 +55,28 @@ TEST(LoopVerdict, AnEffectThatCannotBeToldFromAKeptOneStands) {
       standing_names(scanned({"cogging"}, false), simulated({kept(effect("spring"), {effect("cogging")})}));
   EXPECT_EQ(names.effects, std::vector<bool>{true});
   EXPECT_TRUE(names.added.empty());
+  EXPECT_FALSE(names.of_other_model);
+}
+
+// cable was told from gravity beside an end stop that is not there
+TEST(LoopVerdict, WhereTheScansModelFallsAClassIsThatOfSimulations) {
+  auto const names = standing_names(scanned({"cable", "end_stop"}, false),
+                                    simulated({kept(effect("gravity"), {effect("cable"), effect("spring")})}));
+  EXPECT_TRUE(names.of_other_model);
+  EXPECT_EQ(names.effects, (std::vector<bool>{false, false}));
+  ASSERT_EQ(names.added.size(), 1u);
+  EXPECT_EQ(name_of(names.added[0].subject), "gravity");
+  EXPECT_EQ(names.added[0].rivals.size(), 2u);
+}
+
+TEST(LoopVerdict, NamesLeaveMoreWhereTheScanPredictsBetterByWhatIsWorthAName) {
+  double const least_fall = 0.05;
+  ModelErrors names{0.06, 0.05, 0.10}, scan{0.01, 0.01, 0.096};
+  EXPECT_FALSE(leave_more(names, scan, least_fall));  // of validation: 4 %
+  scan.validation = 0.094;
+  EXPECT_TRUE(leave_more(names, scan, least_fall));
+  names.validation = scan.validation = LoopErrors::none;  // of held-out folds
+  EXPECT_TRUE(leave_more(names, scan, least_fall));
 }
 
 TEST(LoopVerdict, ADelayOfTheCommandIsTheScansDelay) {
