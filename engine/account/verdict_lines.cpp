@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "engine/account/all_sample_errors.hpp"
 #include "engine/account/error_words.hpp"
@@ -45,16 +47,48 @@ std::string title_of(NamedEffect const& effect) {
   return is_short ? title : in_words(effect.name);
 }
 
+// of a cosine and its sine, the amplitude: which of them is large is a matter of where the zero lies
+ParameterEstimate amplitude_of(ParameterEstimate const& one, ParameterEstimate const& other, std::string name) {
+  auto const part = [](ParameterEstimate const& of) { return of.value * 0.5 * (of.upper - of.lower); };
+  double const amplitude = std::hypot(one.value, other.value);
+  double const width = amplitude > 0.0 ? std::hypot(part(one), part(other)) / amplitude : 0.0;
+  return {std::move(name), one.unit, amplitude, width > amplitude ? 0.0 : amplitude - width, amplitude + width};
+}
+
+// "gravity" of gravity_sin beside gravity_cos; "" of others
+std::string wave_name(ParameterEstimate const& one, ParameterEstimate const& other) {
+  constexpr std::size_t ending = 4;
+  for (auto const& [first, second] : {std::pair{"_sin", "_cos"}, std::pair{"_cos", "_sin"}}) {
+    std::string const stem = one.name.substr(0, one.name.size() - std::min(one.name.size(), ending));
+    if (one.name == stem + first && other.name == stem + second) return stem;
+  }
+  return "";
+}
+
+// its parameters, a cosine and its sine as one
+std::vector<ParameterEstimate> told_parameters(NamedEffect const& effect) {
+  std::vector<ParameterEstimate> parameters;
+  for (ParameterEstimate const& one : effect.parameters) {
+    std::string name = parameters.empty() ? "" : wave_name(parameters.back(), one);
+    if (name.empty())
+      parameters.push_back(one);
+    else
+      parameters.back() = amplitude_of(parameters.back(), one, std::move(name));
+  }
+  return parameters;
+}
+
 constexpr std::size_t three = 3;
 
 // its name and its first numbers, the first without a name of its own
 std::string with_numbers(NamedEffect const& effect, std::size_t most) {
   std::string text = title_of(effect);
   std::size_t told_numbers = 0;
-  for (ParameterEstimate const& one : effect.parameters) {
+  auto const parameters = told_parameters(effect);
+  for (ParameterEstimate const& one : parameters) {
     bool const is_first = told_numbers == 0;
-    // a second one of the same unit is another component of the same size: a sine beside its cosine
-    if (told_numbers == most || (!is_first && one.unit == effect.parameters.front().unit)) continue;
+    // a second one of the same unit is another component of the same size
+    if (told_numbers == most || (!is_first && one.unit == parameters.front().unit)) continue;
     text += is_first ? " " + number_of(one) : fmt::format(", {}{}", short_name(effect, one), number_of(one));
     ++told_numbers;
   }

@@ -223,6 +223,8 @@ class Search {
     // from the last one on: an effect that another stands for goes to the end
     for (std::size_t i = accepted_.effects.size(); i-- > 0;)
       accepted_ = with_rivals(on(), std::move(accepted_), i, facts.steps);
+    // what made up for an effect that another stands for now
+    accepted_ = without_useless(on(), std::move(accepted_), facts.steps);
     facts.accepted = std::move(accepted_.effects);
     result_.final = std::move(accepted_.fit);
     facts.delay = decided_delay(q_, rows(), result_.final, chance_of_delay_);

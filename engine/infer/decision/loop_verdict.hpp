@@ -7,8 +7,8 @@
 //            same, unless simulations call it chance, or kept something on the command side, which it may have stood
 //            for
 // Chance     an effect that simulations asked and replicates reached says nothing against the scan's model, either
-// Classes    the scan tells an effect from its rivals beside its own model. Where the names are of another model, those of
-//            simulations are told: an effect that they only cannot tell from one they kept stands in its class
+// Classes    the scan tells an effect from its rivals beside its own model. Where the names are of another model, the
+//            classes are those of simulations: an effect that they cannot tell from one they kept stands in its class
 // Delay      a command delay that was kept and the scan's delay are one thing, "delay"; where the command side was
 //            asked and none was kept, the scan's delay is none
 // Threads    pure function

@@ -2,8 +2,8 @@
 // Torque of what remembers the motion, whatever its form: columns of one strip, by how long the memory is.
 //
 // Equation   at each frequency f: a load on a spring that the acceleration drives, y'' + 2 z w y' + w^2 y = q'',
-//            w = 2 pi f, z = 0.2, by position and speed; a slow mean m of the speed, m' = w (|q'| - m), times the torque
-//            and times the side of dry friction
+//            w = 2 pi f, z = 0.2, by position and speed; a slow mean m of the speed, m' = w (|q'| - m), times the
+//            torque and times the side of dry friction
 // Why        linear filters followed by functions without memory come near every torque whose memory fades
 //            (Boyd, Chua 1985, doi:10.1109/TCS.1985.1085649); these are the simplest
 // Shapes     n rows x 4 for each frequency; filtered and weighed as the strip's rows are

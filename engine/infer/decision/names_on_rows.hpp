@@ -1,8 +1,8 @@
 #pragma once
 // What the rows leave beside names that simulations decided on, where these are not the scan's.
 //
-// Fitted     kept moves with the shapes of the simulations, what stands beside them with the scan's; sizes, baseline and
-//            delay are those of the rows
+// Fitted     kept moves with the shapes of the simulations, what stands beside them with the scan's; sizes, baseline
+//            and delay are those of the rows
 // Errors     of the rows (decision_facts.hpp); none where something on the command side was kept: rows do not show it
 // Threads    pure functions
 // Source     engine/infer/decision/THEORY.md, In the loop

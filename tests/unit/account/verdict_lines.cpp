@@ -57,6 +57,18 @@ TEST(VerdictLines, CountWavesInATurnAndSayNoIntervalThatDigitsHide) {
             "cogging 0.060 N m [0.057, 0.062], 12 a turn, p < 0.005");
 }
 
+TEST(VerdictLines, TellTheAmplitudeOfAWaveWhereverItsZeroLies) {
+  NamedEffect cogging = effect_of("cogging", "cogging torque of the motor, fixed in the angle");
+  cogging.parameters = {{"cogging_cos", "N m", -0.03, -0.04, -0.02},
+                        {"cogging_sin", "N m", 0.04, 0.03, 0.05},
+                        {"cogging_order", "1/rad", 12.0, 11.999, 12.001}};
+  EXPECT_EQ(verdict_lines({}, joint_with({cogging}), Verdict::named).what,
+            "cogging 0.050 N m [0.040, 0.060], 12 a turn, p < 0.005");
+  NamedEffect gravity = effect_of("gravity", "weight");
+  gravity.parameters = {{"gravity_sin", "N m", 3.0}, {"gravity_cos", "N m", 4.0}};  // no interval is known
+  EXPECT_EQ(verdict_lines({}, joint_with({gravity}), Verdict::named).what, "weight 5.0 N m, p < 0.005");
+}
+
 TEST(VerdictLines, ShowThreeMembersOfAClassAtMost) {
   NamedEffect one = effect_of("cogging", "cogging torque of the motor, fixed in the angle");
   one.parameters = {{"cogging_cos", "N m", 0.1}};
