@@ -187,7 +187,8 @@ class JointWork {
       if (names.of_other_model)
         if (auto const errors = errors_of_names(question, decision, loop, names)) {
           tell_errors_with_names(*errors);
-          of.is_complete = of.is_complete && !leave_more(*errors, facts.final, input_.numbers.least_fall);
+          bool const lack_one = names.drops_effects && leave_more(*errors, facts.final, input_.numbers.least_fall);
+          of.is_complete = of.is_complete && !lack_one;
         }
       if (names.command_delay && !facts.delay.is_named) tell_errors_with_delay(facts);
       // a torque that comes before its motion is a command that the drive follows late: no fault of a channel. One that

@@ -59,8 +59,8 @@ StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop) {
   if (!names.by_loop) return names;
   names.effects = told_effects(scan, loop, is_of_class);
   names.added = further_moves(scan, loop, is_of_class);
-  bool const has_all = std::find(names.effects.begin(), names.effects.end(), false) == names.effects.end();
-  names.of_other_model = !has_all || !names.added.empty();
+  names.drops_effects = std::find(names.effects.begin(), names.effects.end(), false) != names.effects.end();
+  names.of_other_model = names.drops_effects || !names.added.empty();
   if (names.of_other_model) {
     names.effects = told_effects(scan, loop, is_of);
     names.added = further_moves(scan, loop, is_of);

@@ -24,6 +24,7 @@ namespace torquescope {
 
 struct StandingNames {
   bool by_loop = false;           // simulations decided
+  bool drops_effects = false;     // of the scan
   bool of_other_model = false;    // than the scan's: numbers and classes are those of simulations
   std::vector<bool> effects{};    // of each that the scan took
   std::vector<KeptMove> added{};  // of the ladder, without an effect that the scan took

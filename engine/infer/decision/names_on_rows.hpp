@@ -16,7 +16,7 @@ namespace torquescope {
 
 std::optional<ModelErrors> errors_of_names(DecisionQuestion const& question, JointDecision const& scan,
                                            LoopFacts const& loop, StandingNames const& names);
-// judged rows are predicted better, by least_fall, with the scan's effects: something is there beside the names
+// judged rows are predicted better, by least_fall, with the scan's effects: what names drop of them is there
 bool leave_more(ModelErrors const& names, ModelErrors const& scan, double least_fall);
 
 }  // namespace torquescope

@@ -56,6 +56,7 @@ TEST(LoopVerdict, AnEffectThatCannotBeToldFromAKeptOneStands) {
   EXPECT_EQ(names.effects, std::vector<bool>{true});
   EXPECT_TRUE(names.added.empty());
   EXPECT_FALSE(names.of_other_model);
+  EXPECT_FALSE(names.drops_effects);
 }
 
 // cable was told from gravity beside an end stop that is not there
@@ -63,10 +64,18 @@ TEST(LoopVerdict, WhereTheScansModelFallsAClassIsThatOfSimulations) {
   auto const names = standing_names(scanned({"cable", "end_stop"}, false),
                                     simulated({kept(effect("gravity"), {effect("cable"), effect("spring")})}));
   EXPECT_TRUE(names.of_other_model);
+  EXPECT_TRUE(names.drops_effects);
   EXPECT_EQ(names.effects, (std::vector<bool>{false, false}));
   ASSERT_EQ(names.added.size(), 1u);
   EXPECT_EQ(name_of(names.added[0].subject), "gravity");
   EXPECT_EQ(names.added[0].rivals.size(), 2u);
+}
+
+TEST(LoopVerdict, WhatOnlySimulationsFoundDropsNothing) {
+  auto const names =
+      standing_names(scanned({"cogging"}, false), simulated({kept(effect("cogging")), kept(effect("stribeck"))}));
+  EXPECT_TRUE(names.of_other_model);
+  EXPECT_FALSE(names.drops_effects);
 }
 
 TEST(LoopVerdict, NamesLeaveMoreWhereTheScanPredictsBetterByWhatIsWorthAName) {
