@@ -48,11 +48,11 @@ std::vector<double> memory_frequencies(std::span<Strip const> strips) {
   return frequencies;
 }
 
-Eigen::MatrixXd memory_columns(Strip const& strip, double frequency_hz) {
+Eigen::MatrixXd memory_columns(Strip const& strip, Eigen::VectorXd const& torque, double frequency_hz) {
   double const omega = 2.0 * std::numbers::pi * frequency_hz, interval_s = 1.0 / strip.motion.rate_hz;
   Eigen::VectorXd const mean_speed = followed(strip.motion.dq.array().abs(), omega, interval_s);
   Eigen::MatrixXd signals(strip.size(), 4);
-  signals << driven_load(strip.motion.ddq, omega, interval_s), mean_speed.cwiseProduct(strip.torque),
+  signals << driven_load(strip.motion.ddq, omega, interval_s), mean_speed.cwiseProduct(torque),
       mean_speed.cwiseProduct(strip.direction);
   return on_rows(strip, signals);
 }

@@ -53,11 +53,19 @@ std::vector<RowRange> where_to_ask(FittedStrips const& fitted) {
 
 using AxisColumns = std::pair<SignatureAxis, Eigen::MatrixXd>;
 
-Eigen::MatrixXd memory_on_rows(FittedStrips const& fitted, double frequency_hz) {
+std::vector<Eigen::VectorXd> torque_of_model(FittedStrips const& fitted) {
+  std::vector<Eigen::VectorXd> torque;
+  for (std::size_t s = 0; s < fitted.strips().size(); ++s)
+    torque.push_back(model_torque(fitted.on(), s, fitted.chosen().fit.samples[s], fitted.parameters()));
+  return torque;
+}
+
+Eigen::MatrixXd memory_on_rows(FittedStrips const& fitted, std::vector<Eigen::VectorXd> const& torque,
+                               double frequency_hz) {
   Eigen::MatrixXd all(fitted.on().rows(), 4);
   Eigen::Index first = 0;
-  for (auto const& strip : fitted.strips()) {
-    Eigen::MatrixXd const rows = memory_columns(strip, frequency_hz);
+  for (std::size_t s = 0; s < fitted.strips().size(); ++s) {
+    Eigen::MatrixXd const rows = memory_columns(fitted.strips()[s], torque[s], frequency_hz);
     all.middleRows(first, rows.rows()) = rows;
     first += rows.rows();
   }
@@ -82,8 +90,9 @@ std::vector<AxisColumns> columns_of_axes(FittedStrips const& fitted) {
                                 {SignatureAxis::acceleration, hats(ddq, knots)},
                                 {SignatureAxis::time, hats(time, knots)}};
   for (auto& [axis, columns] : axes) columns = weighed(fitted, std::move(columns));
+  auto const torque = torque_of_model(fitted);
   for (double const frequency_hz : memory_frequencies(fitted.strips()))
-    axes.emplace_back(SignatureAxis::frequency, memory_on_rows(fitted, frequency_hz));
+    axes.emplace_back(SignatureAxis::frequency, memory_on_rows(fitted, torque, frequency_hz));
   return axes;
 }
 

@@ -1,4 +1,4 @@
-// A load on a spring and a wear of the speed are what their equations say, on a motion in closed form.
+// A load on a spring and a slow mean of the speed are what their equations say, on a motion in closed form.
 
 #include "engine/infer/decision/memory_columns.hpp"
 
@@ -34,12 +34,12 @@ std::function<double(double t)> load_torque(GivenJoint const& joint, double freq
   return [values](double t) { return (*values)[static_cast<std::size_t>(std::max(0.0, t) / 5e-5)]; };
 }
 
-TEST(MemoryColumns, AtConstantSpeedTheWearIsTheSpeedAndNoLoadMoves) {
+TEST(MemoryColumns, AtConstantSpeedTheMeanIsTheSpeedAndNoLoadMoves) {
   Strip strip = strip_of_joint({});
   strip.motion.ddq.setZero();
   strip.motion.dq.setConstant(-0.7);
   strip.direction.setConstant(-1.0);
-  Eigen::MatrixXd const columns = memory_columns(strip, 1.0);
+  Eigen::MatrixXd const columns = memory_columns(strip, strip.torque, 1.0);
   ASSERT_EQ(columns.cols(), 4);
   EXPECT_EQ(columns.leftCols(2).cwiseAbs().maxCoeff(), 0.0);
   Eigen::VectorXd const torque = on_rows(strip, strip.torque).col(0);
@@ -53,7 +53,7 @@ TEST(MemoryColumns, ALoadFollowsASlowAccelerationAndLeavesAFastOne) {
   for (auto const& [hz, gain] : {std::pair{0.1, 1.0}, {1.0, 2.5}, {5.0, 1.0 / 24.1}}) {
     for (Eigen::Index k = 0; k < strip.size(); ++k)
       strip.motion.ddq[k] = std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(k) / rate_hz);
-    Eigen::MatrixXd const columns = memory_columns(strip, 1.0);
+    Eigen::MatrixXd const columns = memory_columns(strip, strip.torque, 1.0);
     Eigen::VectorXd const settled = columns.col(0).tail(columns.rows() / 2);
     EXPECT_NEAR(settled.cwiseAbs().maxCoeff(), gain, 0.05 * gain + 0.005) << hz << " Hz";
   }
