@@ -29,7 +29,8 @@ struct Sampling {
 
 // stamp_unit_s: the spacing that the stamps had before they became seconds since the first row, where that is known
 Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& table, double stamp_unit_s = 0.0);
-// the spacing of numbers of single precision as large as the stamps, where all of them are such numbers; else 0
+// the spacing of numbers of single precision as large as the stamps, where all of them are such numbers, or were before
+// they were printed; else 0
 double single_precision_unit(std::vector<double> const& stamps);
 // a file without time column
 Sampling sampling_at(double rate_hz, std::size_t n_rows);

@@ -137,5 +137,19 @@ TEST(Sampling, StampsOfSinglePrecisionAreEven) {
   EXPECT_NEAR(sampling.rate_hz, 500.0, 0.01);
 }
 
+// nine digits, as printf("%.9g") keeps every float
+TEST(Sampling, PrintedStampsOfSinglePrecisionAreEven) {
+  auto stamps = even_stamps(500, 5000);
+  for (double& stamp : stamps) {
+    double const single = static_cast<double>(static_cast<float>(stamp + 5000.0));
+    stamp = std::round(single * 1e5) / 1e5;
+  }
+  double const unit = single_precision_unit(stamps);
+  EXPECT_DOUBLE_EQ(unit, 0x1p-11);
+  EXPECT_NEAR(analyse_sampling(stamps, table_of(stamps.size()), unit).rate_hz, 500.0, 0.01);
+  stamps[100] += 1e-4;  // no float, by a fifth of their spacing
+  EXPECT_EQ(single_precision_unit(stamps), 0.0);
+}
+
 }  // namespace sampling_test
 }  // namespace torquescope
