@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -57,7 +58,7 @@ ParameterEstimate amplitude_of(ParameterEstimate const& one, ParameterEstimate c
 
 // "gravity" of gravity_sin beside gravity_cos; "" of others
 std::string wave_name(ParameterEstimate const& one, ParameterEstimate const& other) {
-  constexpr std::size_t ending = 4;
+  constexpr std::size_t ending = std::string_view("_sin").size();
   for (auto const& [first, second] : {std::pair{"_sin", "_cos"}, std::pair{"_cos", "_sin"}}) {
     std::string const stem = one.name.substr(0, one.name.size() - std::min(one.name.size(), ending));
     if (one.name == stem + first && other.name == stem + second) return stem;
