@@ -178,7 +178,7 @@ class Verdict(unittest.TestCase):
         self.assertEqual(
             verdict["sentence"],
             "Stribeck friction 0.35 N m [0.34, 0.37], speed 0.060 rad/s [0.055, 0.065] or presliding; "
-            "cogging 0.060 N m [0.057, 0.062], 12 a turn, p < 0.005",
+            "cogging 0.060 N m [0.057, 0.063], 12 a turn, p < 0.005",
         )
         evidence = verdict["evidence"].replace("\u00a0", " ")
         for words in (
