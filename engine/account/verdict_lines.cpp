@@ -60,7 +60,7 @@ ParameterEstimate amplitude_of(ParameterEstimate const& one, ParameterEstimate c
 std::string wave_name(ParameterEstimate const& one, ParameterEstimate const& other) {
   constexpr std::size_t ending = std::string_view("_sin").size();
   for (auto const& [first, second] : {std::pair{"_sin", "_cos"}, std::pair{"_cos", "_sin"}}) {
-    std::string const stem = one.name.substr(0, one.name.size() - std::min(one.name.size(), ending));
+    std::string stem = one.name.substr(0, one.name.size() - std::min(one.name.size(), ending));
     if (one.name == stem + first && other.name == stem + second) return stem;
   }
   return "";
@@ -172,7 +172,7 @@ std::string what_of(Diagnosis const& diagnosis, JointDiagnosis const& joint, Ver
   }
   bool const is_of_arm = diagnosis.joints.size() > 1;
   if (is_of_arm && !joint.reason.empty()) return without_full_stop(joint.reason);
-  std::string const finding = without_full_stop(diagnosis.finding);
+  std::string finding = without_full_stop(diagnosis.finding);
   if (!finding.empty()) return finding;
   // a channel that is at fault is named like physics
   return joint.effects.empty() ? without_full_stop(diagnosis.reason) : named_text(joint, three);
