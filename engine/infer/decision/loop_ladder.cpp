@@ -207,7 +207,7 @@ class Ladder {
           children.back().taken.emplace(move.move, move);
         }
       }
-      step.moves.push_back(std::move(facts));
+      step.moves.push_back(facts);
     }
     std::stable_sort(step.moves.begin(), step.moves.end(),
                      [](MoveFacts const& a, MoveFacts const& b) { return a.gain > b.gain; });

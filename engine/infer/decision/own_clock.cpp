@@ -48,7 +48,7 @@ Eigen::VectorXd less_share(Eigen::VectorXd const& torque, Eigen::VectorXd residu
   return residual - std::clamp(torque.dot(residual) / whole, 0.0, 1.0) * torque;
 }
 
-Eigen::VectorXd less_wave(Eigen::MatrixXd const& columns, Eigen::VectorXd residual) {
+Eigen::VectorXd less_wave(Eigen::MatrixXd const& columns, Eigen::VectorXd const& residual) {
   Eigen::MatrixXd const basis = orthonormal_basis(columns);
   return residual - basis * (basis.transpose() * residual);
 }
