@@ -70,7 +70,7 @@ Eigen::VectorXd less_own_clock(ElsewhereRows const& rows, Eigen::VectorXd residu
     auto const columns = [&] { return columns_there(rows, *one.effect, {one.shape}).front(); };
     switch (carry_over(*one.effect)) {
       case CarryOver::in_frequency:
-        residual = less_wave(columns(), std::move(residual));
+        residual = less_wave(columns(), residual);
         break;
       case CarryOver::in_part:
         residual = less_share(
