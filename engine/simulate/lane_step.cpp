@@ -8,9 +8,10 @@
 // the part up to HWY_ONCE is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/simulate/lane_step.cpp"
-#include "engine/simulate/lane_field-inl.hpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
+
+#include "engine/simulate/lane_field-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::HWY_NAMESPACE {
