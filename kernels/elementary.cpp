@@ -138,18 +138,19 @@ HWY_INLINE V logarithm_of(V x) {
   return hn::IfThenElse(hn::Eq(x, x), result, x);
 }
 
-HWY_INLINE V power_of_size_of(V x, double exponent) {
-  V const size = hn::Abs(x), a = set(exponent);
+HWY_INLINE V power_of_size_of(V x, V a) {
+  V const size = hn::Abs(x);
   Sum const log = log_of(size);
   V const y = hn::Mul(a, log.value);
   V const y_tail = fused_mul_add(a, log.tail, fused_mul_add(a, log.value, hn::Neg(y)));
   // of an infinite y the tail is no number
   V result = exp_of_sum(y, hn::IfThenElseZero(hn::Lt(hn::Abs(y), set(746.0)), y_tail));
-  double const infinity = std::numeric_limits<double>::infinity();
-  double const at_zero = exponent > 0.0 ? 0.0 : exponent < 0.0 ? infinity : 1.0;
-  double const at_infinity = exponent > 0.0 ? infinity : exponent < 0.0 ? 0.0 : 1.0;
-  result = hn::IfThenElse(hn::Eq(size, hn::Zero(d)), set(at_zero), result);
-  result = hn::IfThenElse(hn::Eq(size, set(infinity)), set(at_infinity), result);
+  V const zero = hn::Zero(d), one = set(1.0), infinity = set(std::numeric_limits<double>::infinity());
+  auto const grows = hn::Gt(a, zero), falls = hn::Lt(a, zero);
+  V const at_zero = hn::IfThenElse(grows, zero, hn::IfThenElse(falls, infinity, one));
+  V const at_infinity = hn::IfThenElse(grows, infinity, hn::IfThenElse(falls, zero, one));
+  result = hn::IfThenElse(hn::Eq(size, zero), at_zero, result);
+  result = hn::IfThenElse(hn::Eq(size, infinity), at_infinity, result);
   return hn::IfThenElse(hn::Eq(x, x), result, x);
 }
 
@@ -218,6 +219,18 @@ HWY_INLINE void for_each_vector(double const* x, std::size_t n, Function const& 
   function(hn::LoadU(d, padded), i, n - i);
 }
 
+// the same of two arrays
+template <class Function>
+HWY_INLINE void for_each_pair(double const* x, double const* y, std::size_t n, Function const& function) {
+  std::size_t i = 0;
+  for (; i + vector_lanes <= n; i += vector_lanes) function(hn::LoadU(d, x + i), hn::LoadU(d, y + i), i, vector_lanes);
+  if (i == n) return;
+  double padded_x[vector_lanes] = {}, padded_y[vector_lanes] = {};
+  std::copy_n(x + i, n - i, padded_x);
+  std::copy_n(y + i, n - i, padded_y);
+  function(hn::LoadU(d, padded_x), hn::LoadU(d, padded_y), i, n - i);
+}
+
 HWY_INLINE void store(V value, std::size_t count, double* out) {
   if (count == vector_lanes) return hn::StoreU(value, d, out);
   double padded[vector_lanes];
@@ -237,13 +250,26 @@ void logarithm_of_array(double const* x, std::size_t n, double* out) {
 }
 
 void power_of_array(double const* x, double exponent, std::size_t n, double* out) {
-  for_each_vector(x, n,
-                  [&](V v, std::size_t i, std::size_t count) { store(power_of_size_of(v, exponent), count, out + i); });
+  V const a = set(exponent);
+  for_each_vector(x, n, [&](V v, std::size_t i, std::size_t count) { store(power_of_size_of(v, a), count, out + i); });
+}
+
+void powers_of_array(double const* x, double const* exponents, std::size_t n, double* out) {
+  for_each_pair(x, exponents, n,
+                [&](V v, V a, std::size_t i, std::size_t count) { store(power_of_size_of(v, a), count, out + i); });
 }
 
 void cosine_sine_of_array(double factor, double const* x, std::size_t n, double* cosine, double* sine) {
   V const times = set(factor);
   for_each_vector(x, n, [&](V v, std::size_t i, std::size_t count) {
+    CosineSine const both = cosine_sine_of(times, v);
+    store(both.cosine, count, cosine + i);
+    store(both.sine, count, sine + i);
+  });
+}
+
+void cosines_sines_of_array(double const* factors, double const* x, std::size_t n, double* cosine, double* sine) {
+  for_each_pair(x, factors, n, [&](V v, V times, std::size_t i, std::size_t count) {
     CosineSine const both = cosine_sine_of(times, v);
     store(both.cosine, count, cosine + i);
     store(both.sine, count, sine + i);
@@ -259,7 +285,9 @@ namespace {
 TORQUESCOPE_EXPORT(exponential_of_array);
 TORQUESCOPE_EXPORT(logarithm_of_array);
 TORQUESCOPE_EXPORT(power_of_array);
+TORQUESCOPE_EXPORT(powers_of_array);
 TORQUESCOPE_EXPORT(cosine_sine_of_array);
+TORQUESCOPE_EXPORT(cosines_sines_of_array);
 }  // namespace
 
 void exponential(double const* x, std::size_t n, double* out) { TORQUESCOPE_DISPATCH(exponential_of_array)(x, n, out); }
@@ -270,8 +298,16 @@ void power_of_size(double const* x, double exponent, std::size_t n, double* out)
   TORQUESCOPE_DISPATCH(power_of_array)(x, exponent, n, out);
 }
 
+void power_of_size(double const* x, double const* exponents, std::size_t n, double* out) {
+  TORQUESCOPE_DISPATCH(powers_of_array)(x, exponents, n, out);
+}
+
 void cosine_sine_of_multiple(double factor, double const* x, std::size_t n, double* cosine, double* sine) {
   TORQUESCOPE_DISPATCH(cosine_sine_of_array)(factor, x, n, cosine, sine);
+}
+
+void cosine_sine_of_multiple(double const* factors, double const* x, std::size_t n, double* cosine, double* sine) {
+  TORQUESCOPE_DISPATCH(cosines_sines_of_array)(factors, x, n, cosine, sine);
 }
 
 }  // namespace torquescope::kernels

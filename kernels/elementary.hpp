@@ -28,11 +28,15 @@ void logarithm(double const* x, std::size_t n, double* out);
 // Range      any x, subnormal ones included; as std::pow at 0 and infinity; NaN of NaN
 // Error      0.7 ULP (0.62 seen); 0.8 (0.72) of a subnormal result, which is rounded twice
 void power_of_size(double const* x, double exponent, std::size_t n, double* out);
+// each with an exponent of its own, to the same bits
+void power_of_size(double const* x, double const* exponents, std::size_t n, double* out);
 
 // cos(factor x), sin(factor x) of the exact product: its rounding error is no error of the result
 // Range      |factor x| <= 2^45: beyond, neighbouring doubles lie further apart than 0.007 rad and both are NaN;
 //            NaN of NaN and infinity
 // Error      0.9 ULP (0.77 seen), near the zeros as well
 void cosine_sine_of_multiple(double factor, double const* x, std::size_t n, double* cosine, double* sine);
+// each with a factor of its own, to the same bits
+void cosine_sine_of_multiple(double const* factors, double const* x, std::size_t n, double* cosine, double* sine);
 
 }  // namespace torquescope::kernels

@@ -91,11 +91,13 @@ class AgeingContacts final : public EffectMemory {
       levels_[static_cast<std::size_t>(lane)] = {levels.ended[lane], levels.endless[lane]};
   }
 
-  void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
-    TORQUESCOPE_EXPECT(linear.size() == 2 && out.size() == levels_.size());
+  void torques(JointStates const& at, ParametersOfEach const& linear, std::span<double> out) const override {
+    TORQUESCOPE_EXPECT(linear.cols() == 2 && out.size() == levels_.size());
+    TORQUESCOPE_EXPECT(linear.rows() == static_cast<Eigen::Index>(out.size()));
     for (std::size_t i = 0; i < out.size(); ++i) {
-      double const sign = contacts_[i].sign(at.dq[static_cast<Eigen::Index>(i)]);
-      out[i] = linear[0] * (sign * levels_[i].ended) + linear[1] * (sign * levels_[i].endless);
+      auto const lane = static_cast<Eigen::Index>(i);
+      double const sign = contacts_[i].sign(at.dq[lane]);
+      out[i] = linear(lane, 0) * (sign * levels_[i].ended) + linear(lane, 1) * (sign * levels_[i].endless);
     }
   }
 

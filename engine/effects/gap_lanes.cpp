@@ -214,11 +214,6 @@ void pull_of_loads(EightGaps const& gaps, EightLoads const& loads, Motions const
   }
 }
 
-void put_torques(double const* pull, double size, double* torque) {
-  for (std::size_t lane = 0; lane < gap_lanes; lane += hn::MaxLanes(d))
-    hn::StoreU(hn::Add(hn::Zero(d), hn::Mul(set(size), hn::LoadU(d, pull + lane))), d, torque + lane);
-}
-
 }  // namespace torquescope::load_behind_gap::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -232,7 +227,6 @@ TORQUESCOPE_EXPORT(before_dry_sub_step);
 TORQUESCOPE_EXPORT(after_dry_sub_step);
 TORQUESCOPE_EXPORT(whole_sub_step);
 TORQUESCOPE_EXPORT(pull_of_loads);
-TORQUESCOPE_EXPORT(put_torques);
 }  // namespace
 
 void drive_to(EightGaps const& gaps, Motions const& at, double step_s, EightLoads& loads) {
@@ -260,10 +254,6 @@ bool whole_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double pa
 
 void pull_of_loads(EightGaps const& gaps, EightLoads const& loads, Motions const& at, double* pull) {
   TORQUESCOPE_DISPATCH(pull_of_loads)(gaps, loads, at, pull);
-}
-
-void put_torques(double const* pull, double size, double* torque) {
-  TORQUESCOPE_DISPATCH(put_torques)(pull, size, torque);
 }
 
 }  // namespace torquescope::load_behind_gap

@@ -64,7 +64,5 @@ bool whole_sub_step(EightGaps const& gaps, EightSubSteps const& steps, double pa
 
 // LoadBehindGap::push less what a load that is fixed to the motor would need there
 void pull_of_loads(EightGaps const& gaps, EightLoads const& loads, Motions const& at, double* pull);
-// of eight loads of this size
-void put_torques(double const* pull, double size, double* torque);
 
 }  // namespace torquescope::load_behind_gap

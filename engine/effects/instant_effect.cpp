@@ -8,6 +8,8 @@
 namespace torquescope {
 namespace {
 
+constexpr std::size_t most_columns = 8;  // of an effect
+
 class InstantRunner final : public EffectRunner {
  public:
   InstantRunner(InstantEffect const& effect, std::span<double const> parameters, JointScales const& scales)
@@ -57,12 +59,40 @@ void InstantEffect::torques(JointStates const& at, std::span<double const> param
                             std::span<double> out) const {
   TORQUESCOPE_EXPECT(parameters.size() >= n_linear() && takes_shape(parameters.size() - n_linear()));
   TORQUESCOPE_EXPECT(at.size() <= states_at_once && out.size() == static_cast<std::size_t>(at.size()));
-  std::array<double, 8 * states_at_once> values;
+  std::array<double, most_columns * states_at_once> values;
   Eigen::Map<Eigen::ArrayXXd> columns(values.data(), at.size(), static_cast<Eigen::Index>(n_linear()));
   evaluate(at, parameters.subspan(n_linear()), scales, columns);
   Eigen::Map<Eigen::ArrayXd> sum(out.data(), at.size());
   sum.setZero();
   for (Eigen::Index k = 0; k < columns.cols(); ++k) sum += parameters[static_cast<std::size_t>(k)] * columns.col(k);
+}
+
+void InstantEffect::torques_of_each(JointStates const& at, ParametersOfEach const& parameters,
+                                    JointScales const& scales, std::span<double> out) const {
+  auto const linear = static_cast<Eigen::Index>(n_linear());
+  TORQUESCOPE_EXPECT(parameters.rows() == at.size() && parameters.cols() >= linear);
+  TORQUESCOPE_EXPECT(takes_shape(static_cast<std::size_t>(parameters.cols() - linear)));
+  TORQUESCOPE_EXPECT(at.size() <= states_at_once && out.size() == static_cast<std::size_t>(at.size()));
+  std::array<double, most_columns * states_at_once> values;
+  Eigen::Map<Eigen::ArrayXXd> columns(values.data(), at.size(), linear);
+  if (parameters.cols() == linear)
+    evaluate(at, {}, scales, columns);
+  else
+    evaluate_each(at, parameters.rightCols(parameters.cols() - linear), scales, columns);
+  Eigen::Map<Eigen::ArrayXd> sum(out.data(), at.size());
+  sum.setZero();
+  for (Eigen::Index k = 0; k < linear; ++k) sum += parameters.col(k) * columns.col(k);
+}
+
+void InstantEffect::evaluate_each(JointStates const& at, ParametersOfEach const& shapes, JointScales const& scales,
+                                  EffectColumns out) const {
+  std::array<double, most_columns> shape;
+  auto const n = static_cast<std::size_t>(shapes.cols());
+  TORQUESCOPE_EXPECT(n <= shape.size());
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    for (std::size_t k = 0; k < n; ++k) shape[k] = shapes(i, static_cast<Eigen::Index>(k));
+    evaluate(at.only(i), {shape.data(), n}, scales, out.middleRows(i, 1));
+  }
 }
 
 }  // namespace torquescope

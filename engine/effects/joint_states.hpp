@@ -35,6 +35,11 @@ struct JointStates {
     auto const at = static_cast<Eigen::Index>(i);
     return {time_s[at], q[at], dq[at], ddq[at], load_torque[at], motor_torque[at]};
   }
+  // a view of one of these, which outlive it
+  JointStates only(Eigen::Index i) const {
+    auto const one = [i](Quantity const& of) { return Quantity(of.data() + i, 1); };
+    return {one(time_s), one(q), one(dq), one(ddq), one(load_torque), one(motor_torque)};
+  }
   // a view of one instant, which outlives it
   static JointStates of(JointState const& one) {
     auto const alone = [](double const& value) { return Quantity(&value, 1); };
@@ -45,6 +50,10 @@ struct JointStates {
 
 // a quantity an effect needs on its way
 using Scratch = Eigen::Array<double, Eigen::Dynamic, 1, 0, states_at_once, 1>;
+// of instants that have their own: [instant][parameter]
+using ParametersOfEach = Eigen::Ref<Eigen::ArrayXXd const>;
+// one of them, of each instant
+using NumberOfEach = Eigen::Ref<Eigen::ArrayXd const>;
 // n x n_linear(): torque per unit of each linear parameter
 using EffectColumns = Eigen::Ref<Eigen::ArrayXXd>;
 
@@ -74,11 +83,19 @@ inline void logarithm(EffectColumn x) { kernels::logarithm(x.data(), static_cast
 inline void power_of_size(EffectColumn x, double exponent) {
   kernels::power_of_size(x.data(), exponent, static_cast<std::size_t>(x.size()), x.data());
 }
+inline void power_of_size(EffectColumn x, NumberOfEach const& exponents) {
+  kernels::power_of_size(x.data(), exponents.data(), static_cast<std::size_t>(x.size()), x.data());
+}
 
 // cos(factor x), sin(factor x)
 inline void cosine_sine(double factor, Eigen::Ref<Eigen::ArrayXd const> const& x, EffectColumn cosine,
                         EffectColumn sine) {
   kernels::cosine_sine_of_multiple(factor, x.data(), static_cast<std::size_t>(x.size()), cosine.data(), sine.data());
+}
+inline void cosine_sine(NumberOfEach const& factors, Eigen::Ref<Eigen::ArrayXd const> const& x, EffectColumn cosine,
+                        EffectColumn sine) {
+  kernels::cosine_sine_of_multiple(factors.data(), x.data(), static_cast<std::size_t>(x.size()), cosine.data(),
+                                   sine.data());
 }
 
 }  // namespace torquescope

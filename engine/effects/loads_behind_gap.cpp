@@ -53,15 +53,18 @@ class LoadsBehindGap final : public EffectMemory {
     }
   }
 
-  void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
-    TORQUESCOPE_EXPECT(linear.size() == 1 && out.size() == loads_.size());
+  void torques(JointStates const& at, ParametersOfEach const& linear, std::span<double> out) const override {
+    TORQUESCOPE_EXPECT(linear.cols() == 1 && out.size() == loads_.size());
+    TORQUESCOPE_EXPECT(linear.rows() == static_cast<Eigen::Index>(out.size()));
     for (std::size_t block = 0; block < blocks_.size(); ++block) {
       Room room;
       Eight pull;
       auto const& [gaps, loads, has_dry] = blocks_[block];
       pull_of_loads(gaps, loads, motions(at, block, room), pull.data());
-      put_torques(pull.data(), linear[0], pull.data());
-      std::copy_n(pull.begin(), lanes_of(block), out.begin() + static_cast<std::ptrdiff_t>(block * gap_lanes));
+      for (std::size_t k = 0; k < lanes_of(block); ++k) {
+        std::size_t const lane = block * gap_lanes + k;
+        out[lane] = 0.0 + linear(static_cast<Eigen::Index>(lane), 0) * pull[k];
+      }
     }
   }
 

@@ -117,12 +117,6 @@ void pull_of_loads(EightLoads const& loads, Accelerations const& ddq, double* pu
   }
 }
 
-// of eight loads of this size
-void put_torques(double const* pull, double size, double* torque) {
-  for (std::size_t lane = 0; lane < spring_lanes; lane += hn::MaxLanes(d))
-    hn::StoreU(hn::Add(hn::Zero(d), hn::Mul(set(size), hn::LoadU(d, pull + lane))), d, torque + lane);
-}
-
 }  // namespace torquescope::load_on_spring::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -132,7 +126,6 @@ namespace {
 
 TORQUESCOPE_EXPORT(advance_loads);
 TORQUESCOPE_EXPORT(pull_of_loads);
-TORQUESCOPE_EXPORT(put_torques);
 
 class LoadsOnSpring final : public EffectMemory {
  public:
@@ -175,13 +168,16 @@ class LoadsOnSpring final : public EffectMemory {
     has_started_ = true;
   }
 
-  void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
-    TORQUESCOPE_EXPECT(linear.size() == 1 && out.size() == springs_.size());
+  void torques(JointStates const& at, ParametersOfEach const& linear, std::span<double> out) const override {
+    TORQUESCOPE_EXPECT(linear.cols() == 1 && out.size() == springs_.size());
+    TORQUESCOPE_EXPECT(linear.rows() == static_cast<Eigen::Index>(out.size()));
     for (std::size_t block = 0; block < blocks_.size(); ++block) {
       Eight room, pull;
       TORQUESCOPE_DISPATCH(pull_of_loads)(blocks_[block], accelerations(at, block, room), pull.data());
-      TORQUESCOPE_DISPATCH(put_torques)(pull.data(), linear[0], pull.data());
-      std::copy_n(pull.begin(), lanes_of(block), out.begin() + static_cast<std::ptrdiff_t>(block * spring_lanes));
+      for (std::size_t k = 0; k < lanes_of(block); ++k) {
+        std::size_t const lane = block * spring_lanes + k;
+        out[lane] = 0.0 + linear(static_cast<Eigen::Index>(lane), 0) * pull[k];
+      }
     }
   }
 

@@ -1,5 +1,7 @@
 #include "engine/effects/memory_effect.hpp"
 
+#include <algorithm>
+
 namespace torquescope {
 namespace {
 
@@ -7,7 +9,9 @@ namespace {
 class MemoryRunner final : public EffectRunner {
  public:
   MemoryRunner(std::unique_ptr<EffectMemory> memory, std::span<double const> linear)
-      : memory_(std::move(memory)), linear_(linear.begin(), linear.end()) {}
+      : memory_(std::move(memory)), linear_(1, static_cast<Eigen::Index>(linear.size())) {
+    std::copy(linear.begin(), linear.end(), linear_.data());
+  }
 
   void advance(JointState const& state, double step_s) override { memory_->advance(JointStates::of(state), step_s); }
 
@@ -19,7 +23,7 @@ class MemoryRunner final : public EffectRunner {
 
  private:
   std::unique_ptr<EffectMemory> memory_;
-  std::vector<double> linear_;
+  Eigen::ArrayXXd linear_;
 };
 
 }  // namespace

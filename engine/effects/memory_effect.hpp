@@ -36,7 +36,8 @@ class EffectMemory {
   virtual void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) = 0;
   // the lanes have come to `at`; they start with the first call
   virtual void advance(JointStates const& at, double step_s) = 0;
-  virtual void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const = 0;
+  // linear: of each lane
+  virtual void torques(JointStates const& at, ParametersOfEach const& linear, std::span<double> out) const = 0;
 };
 
 class MemoryEffect : public Effect {
@@ -104,14 +105,16 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
       if constexpr (decays) q_.assign(at.q.begin(), at.q.end());
     }
 
-    void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
+    void torques(JointStates const& at, ParametersOfEach const& linear, std::span<double> out) const override {
       using Row = decltype(states_.front().row(JointState{}));
       constexpr std::size_t width = std::tuple_size_v<Row>;
-      TORQUESCOPE_EXPECT(linear.size() == width && out.size() == states_.size());
+      TORQUESCOPE_EXPECT(linear.cols() == static_cast<Eigen::Index>(width) && out.size() == states_.size());
+      TORQUESCOPE_EXPECT(linear.rows() == static_cast<Eigen::Index>(out.size()));
       for (std::size_t lane = 0; lane < states_.size(); ++lane) {
         Row const row = states_[lane].row(at.state(lane));
         double sum = 0.0;
-        for (std::size_t k = 0; k < width; ++k) sum += linear[k] * row[k];
+        for (std::size_t k = 0; k < width; ++k)
+          sum += linear(static_cast<Eigen::Index>(lane), static_cast<Eigen::Index>(k)) * row[k];
         out[lane] = sum;
       }
     }

@@ -17,7 +17,7 @@ namespace torquescope {
 namespace {
 
 // straight from tick to tick, constant beyond the ends
-double between_ticks(Eigen::VectorXd const& signal, double ticks) {
+double between_ticks(Eigen::Ref<Eigen::VectorXd const> const& signal, double ticks) {
   double const tick = std::clamp(ticks, 0.0, static_cast<double>(signal.size() - 1));
   auto const before = static_cast<Eigen::Index>(tick), after = std::min(before + 1, signal.size() - 1);
   return signal[before] + (tick - static_cast<double>(before)) * (signal[after] - signal[before]);
@@ -32,6 +32,15 @@ constexpr LaneTorques filled(double value) {
   return all;
 }
 constexpr LaneTorques none = filled(0.0), one = filled(1.0);
+
+std::vector<double> row_of(Eigen::ArrayXXd const& parameters, std::size_t lane) {
+  Eigen::ArrayXd const row = parameters.row(static_cast<Eigen::Index>(lane)).transpose();
+  return {row.begin(), row.end()};
+}
+
+bool are_alike(Eigen::ArrayXXd const& parameters) {
+  return (parameters == parameters.row(0).replicate(parameters.rows(), 1)).all();
+}
 
 // asked of the effect itself, so that no table can disagree; what begins at an instant may do so then
 bool asks_for_acceleration(InstantEffect const& effect, std::vector<double> const& parameters,
@@ -51,10 +60,10 @@ bool is_of_speed_alone(InstantEffect const& effect) {
 
 class CatalogueEffect final : public LaneEffect {
  public:
-  CatalogueEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
-                  LaneBaseline const& baseline, std::size_t lanes)
-      : lanes_(lanes),
-        acts_on_(effect.acts_on()),
+  // parameters: [lane][parameter]
+  CatalogueEffect(Effect const& effect, Eigen::ArrayXXd const& parameters, JointScales const& scales,
+                  LaneBaseline const& baseline)
+      : acts_on_(effect.acts_on()),
         is_dry_friction_(effect.is_dry_friction()),
         is_partly_dry_(effect.is_partly_dry()),
         has_memory_(effect.has_memory()),
@@ -65,18 +74,20 @@ class CatalogueEffect final : public LaneEffect {
         gear_load_rate_hz_(baseline.rate_hz),
         parameters_(parameters),
         scales_(scales) {
+    if (are_alike(parameters_)) common_ = row_of(parameters_, 0);
     if (acts_on_ == ActsOn::joint) effect_ = dynamic_cast<InstantEffect const*>(&effect);
     if (effect_ != nullptr) {
-      asks_for_acceleration_ = asks_for_acceleration(*effect_, parameters, scales);
+      asks_for_acceleration_ = any_asks_for_acceleration();
       if (is_of_speed_alone(*effect_)) rest_ = Rest{at_rest(1.0), at_rest(-1.0)};
       return;
     }
     if (auto const* remembering = dynamic_cast<MemoryEffect const*>(&effect)) {
-      memory_ = remembering->memory(std::span(parameters_).subspan(effect.n_linear()), scales, lanes_);
-      linear_ = std::span(parameters_).first(effect.n_linear());
+      memory_ = memory_of_lanes(*remembering);
+      linear_ = parameters_.leftCols(static_cast<Eigen::Index>(effect.n_linear()));
       return;
     }
-    for (std::size_t lane = 0; lane < lanes_; ++lane) runners_.push_back(effect.runner(parameters, scales));
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
+      runners_.push_back(effect.runner(row_of(parameters_, lane), scales));
   }
 
   // a memory may be stiff: what has none is smooth within a tick
@@ -108,6 +119,23 @@ class CatalogueEffect final : public LaneEffect {
   }
 
  private:
+  bool any_asks_for_acceleration() const {
+    if (common_) return asks_for_acceleration(*effect_, *common_, scales_);
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
+      if (asks_for_acceleration(*effect_, row_of(parameters_, lane), scales_)) return true;
+    return false;
+  }
+
+  std::unique_ptr<EffectMemory> memory_of_lanes(MemoryEffect const& effect) const {
+    auto const of = [&](std::vector<double> const& all, std::size_t lanes) {
+      return effect.memory(std::span(all).subspan(effect.n_linear()), scales_, lanes);
+    };
+    if (common_) return of(*common_, replicate_lanes);
+    auto memory = of(row_of(parameters_, 0), 1);
+    for (std::size_t lane = 1; lane < replicate_lanes; ++lane) memory->append(*of(row_of(parameters_, lane), 1));
+    return memory;
+  }
+
   // what needs a baseline is told of the whole torque: at the gear, and of the motor
   struct Borne {
     LaneTorques load{}, motor{};
@@ -116,17 +144,17 @@ class CatalogueEffect final : public LaneEffect {
   // motor_at_s: of the gear load, when the motor's torque is read
   Borne borne_at(LaneInstant const& at, double motor_at_s) const {
     Borne borne;
-    std::copy_n(at.motor_torque, lanes_, borne.motor.begin());
+    std::copy_n(at.motor_torque, replicate_lanes, borne.motor.begin());
     if (!needs_baseline_) return borne;
     double const beside = gear_load_at(at.time_s), in_motor = gear_load_at(motor_at_s);
-    for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       borne.load[lane] = beside + baseline_.inertia[lane] * at.ddq[lane];
       borne.motor[lane] += in_motor;
     }
     if (!has_weight_) return borne;
     LaneTorques sine, cosine;
-    kernels::cosine_sine_of_multiple(1.0, at.q, lanes_, cosine.data(), sine.data());
-    for (std::size_t lane = 0; lane < lanes_; ++lane)
+    kernels::cosine_sine_of_multiple(1.0, at.q, replicate_lanes, cosine.data(), sine.data());
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
       borne.load[lane] += baseline_.gravity_sin[lane] * sine[lane] + baseline_.gravity_cos[lane] * cosine[lane];
     return borne;
   }
@@ -150,7 +178,9 @@ class CatalogueEffect final : public LaneEffect {
     for (std::size_t lane = 0; lane < runners_.size(); ++lane) runners_[lane]->advance(at.state(lane), step_s);
   }
 
-  JointStates::Quantity of_lanes(double const* values) const { return {values, static_cast<Eigen::Index>(lanes_)}; }
+  static JointStates::Quantity of_lanes(double const* values) {
+    return {values, static_cast<Eigen::Index>(replicate_lanes)};
+  }
 
   // time_s: room for what the lanes have in common
   JointStates states_of(LaneInstant const& at, Borne const& borne, LaneTorques& time_s) const {
@@ -166,13 +196,14 @@ class CatalogueEffect final : public LaneEffect {
   // memory as it stands
   LaneTorques torques(JointStates const& at) const {
     LaneTorques found{};
-    std::span<double> const used(found.data(), lanes_);
-    if (effect_ != nullptr)
-      effect_->torques(at, parameters_, scales_, used);
+    if (effect_ != nullptr && common_)
+      effect_->torques(at, *common_, scales_, found);
+    else if (effect_ != nullptr)
+      effect_->torques_of_each(at, parameters_, scales_, found);
     else if (memory_)
-      memory_->torques(at, linear_, used);
+      memory_->torques(at, linear_, found);
     else
-      for (std::size_t lane = 0; lane < lanes_; ++lane) found[lane] = runners_[lane]->torque(at.state(lane));
+      for (std::size_t lane = 0; lane < replicate_lanes; ++lane) found[lane] = runners_[lane]->torque(at.state(lane));
     return found;
   }
 
@@ -185,37 +216,38 @@ class CatalogueEffect final : public LaneEffect {
 
   // the branch that moves in `direction`, continued to rest
   LaneTorques sliding(JointStates const& at, double direction) const {
-    if (rest_ && !(direction * at.dq > slowest).any())
-      return filled(direction > 0.0 ? rest_->forward : rest_->backward);
+    if (rest_ && !(direction * at.dq > slowest).any()) return direction > 0.0 ? rest_->forward : rest_->backward;
     LaneTorques dq{};
-    for (std::size_t lane = 0; lane < lanes_; ++lane)
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
       dq[lane] = direction * std::max(direction * at.dq[static_cast<Eigen::Index>(lane)], slowest);
     return torques({at.time_s, at.q, of_lanes(dq.data()), at.ddq, at.load_torque, at.motor_torque});
   }
 
-  double at_rest(double direction) const {
-    return effect_->torque(JointState{.dq = direction * slowest}, parameters_, scales_);
+  LaneTorques at_rest(double direction) const {
+    LaneTorques const dq = filled(direction * slowest);
+    auto const nothing = of_lanes(none.data());
+    return torques({nothing, nothing, of_lanes(dq.data()), nothing, nothing, nothing});
   }
 
   // most often all lanes move one way: what the other branch begins with, of effects of the speed alone
   struct Rest {
-    double forward, backward;
+    LaneTorques forward, backward;
   };
 
-  std::size_t lanes_;
   ActsOn acts_on_;
   bool is_dry_friction_, is_partly_dry_, has_memory_, needs_baseline_, has_weight_;
   bool asks_for_acceleration_ = true;  // whatever is remembered may
   LaneJoints baseline_;
   std::shared_ptr<Eigen::VectorXd const> gear_load_;
   double gear_load_rate_hz_;
-  std::vector<double> parameters_;
+  Eigen::ArrayXXd parameters_;                   // [lane][parameter]
+  std::optional<std::vector<double>> common_{};  // of all lanes; none where they differ
   JointScales scales_;
   // all lanes at once: an effect of the instant in the joint, or what each replicate remembers
   InstantEffect const* effect_ = nullptr;
   std::optional<Rest> rest_{};
   std::unique_ptr<EffectMemory> memory_;
-  std::span<double const> linear_{};                    // of parameters_
+  Eigen::ArrayXXd linear_{};                            // of parameters_
   std::vector<std::unique_ptr<EffectRunner>> runners_;  // otherwise one per lane
 };
 
@@ -223,46 +255,49 @@ class CatalogueEffect final : public LaneEffect {
 
 namespace {
 
-// a torque known beforehand, one per tick, straight from tick to tick; the same in all lanes
+// a torque known beforehand, straight from tick to tick: [tick][lane], or one column for all lanes
 class KnownTorque final : public LaneEffect {
  public:
-  KnownTorque(std::shared_ptr<Eigen::VectorXd const> torque, double rate_hz)
+  KnownTorque(std::shared_ptr<Eigen::MatrixXd const> torque, double rate_hz)
       : torque_(std::move(torque)), rate_hz_(rate_hz) {}
   bool follows_steps() const override { return false; }
   void add(LaneInstant const& at, LaneDemand& demand) override {
-    double const now = between_ticks(*torque_, at.time_s * rate_hz_);
-    for (double& lane : demand.smooth) lane += now;
+    double const ticks = at.time_s * rate_hz_, first = between_ticks(torque_->col(0), ticks);
+    bool const is_common = torque_->cols() == 1;
+    for (std::size_t lane = 0; lane < replicate_lanes; ++lane)
+      demand.smooth[lane] += is_common ? first : between_ticks(torque_->col(static_cast<Eigen::Index>(lane)), ticks);
   }
 
  private:
-  std::shared_ptr<Eigen::VectorXd const> torque_;
+  std::shared_ptr<Eigen::MatrixXd const> torque_;
   double rate_hz_;
 };
 
-LaneEffectMaker known_torque(Effect const& effect, std::vector<double> const& parameters,
-                             LaneBaseline const& baseline) {
+LaneEffectMaker known_torque(Effect const& effect, Eigen::ArrayXXd const& parameters, LaneBaseline const& baseline) {
   Eigen::MatrixXd const* columns = baseline.given ? baseline.given->of(effect.name()) : nullptr;
-  auto torque = std::make_shared<Eigen::VectorXd const>(
-      columns == nullptr
-          ? Eigen::VectorXd::Zero(1).eval()
-          : Eigen::VectorXd(*columns * Eigen::Map<Eigen::VectorXd const>(parameters.data(), columns->cols())));
+  Eigen::Index const lanes = are_alike(parameters) ? 1 : parameters.rows();
+  auto torque = std::make_shared<Eigen::MatrixXd const>(
+      columns == nullptr ? Eigen::MatrixXd::Zero(1, 1).eval()
+                         : Eigen::MatrixXd(*columns * parameters.topRows(lanes).matrix().transpose()));
   return [torque, rate_hz = baseline.rate_hz] { return std::make_unique<KnownTorque>(torque, rate_hz); };
 }
 
 }  // namespace
 
-LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
+LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
                             LaneBaseline const& baseline) {
-  return lane_effect(effect, std::move(parameters), scales, baseline, replicate_lanes);
+  Eigen::Map<Eigen::ArrayXd const> const one(parameters.data(), static_cast<Eigen::Index>(parameters.size()));
+  return lane_effect_of_each(effect, one.transpose().replicate(replicate_lanes, 1), scales, baseline);
 }
 
-LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
-                            LaneBaseline const& baseline, std::size_t lanes) {
-  TORQUESCOPE_EXPECT(parameters.size() >= effect.n_linear() && lanes >= 1 && lanes <= replicate_lanes);
-  TORQUESCOPE_EXPECT(effect.takes_shape(parameters.size() - effect.n_linear()));
+LaneEffectMaker lane_effect_of_each(Effect const& effect, Eigen::ArrayXXd parameters, JointScales const& scales,
+                                    LaneBaseline const& baseline) {
+  auto const count = static_cast<std::size_t>(parameters.cols());
+  TORQUESCOPE_EXPECT(parameters.rows() == static_cast<Eigen::Index>(replicate_lanes) && count >= effect.n_linear());
+  TORQUESCOPE_EXPECT(effect.takes_shape(count - effect.n_linear()));
   if (effect.is_given()) return known_torque(effect, parameters, baseline);
-  return [&effect, parameters = std::move(parameters), scales, baseline, lanes] {
-    return std::make_unique<CatalogueEffect>(effect, parameters, scales, baseline, lanes);
+  return [&effect, parameters = std::move(parameters), scales, baseline] {
+    return std::make_unique<CatalogueEffect>(effect, parameters, scales, baseline);
   };
 }
 

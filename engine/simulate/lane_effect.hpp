@@ -61,10 +61,11 @@ using LaneEffectMaker = std::function<std::unique_ptr<LaneEffect>()>;
 
 // an effect of the catalogue, lane by lane, each with its own memory, at the place where it acts (Effect::acts_on);
 // parameters as Effect::runner takes them. baseline: what its load torque is made of, inertia and gravity
-LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
+LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
                             LaneBaseline const& baseline = {});
-// the same of the first `lanes`; what the other lanes get means nothing
-LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
-                            LaneBaseline const& baseline, std::size_t lanes);
+// the same with parameters of each lane, as the trials of a fit have: [replicate_lanes][parameters]. Bits of a lane are
+// those that it has with these parameters in all lanes
+LaneEffectMaker lane_effect_of_each(Effect const& effect, Eigen::ArrayXXd parameters, JointScales const& scales,
+                                    LaneBaseline const& baseline = {});
 
 }  // namespace torquescope

@@ -35,6 +35,11 @@ class Cogging final : public InstantEffect {
                 EffectColumns out) const override {
     cosine_sine(shape[0], at.q, out.col(0), out.col(1));
   }
+
+  void evaluate_each(JointStates const& at, ParametersOfEach const& shapes, JointScales const&,
+                     EffectColumns out) const override {
+    cosine_sine(NumberOfEach(shapes.col(0)), at.q, out.col(0), out.col(1));
+  }
 };
 
 }  // namespace

@@ -46,12 +46,32 @@ class EndStop final : public InstantEffect {
 
   void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
                 EffectColumns out) const override {
-    double const side = shape[0] >= scales.position_centre ? 1.0 : -1.0;
-    double const unit = share_of_travel * scales.position_range;
-    Scratch depth = (side * (at.q - shape[0])).max(0.0) / unit;
-    out.col(1) = (depth > 0.0).select(at.dq, 0.0);
+    double const side = side_of(shape[0], scales);
+    Scratch depth = press(at, side, shape[0], scales, out);
     if (shape[1] != 1.0) power_of_size(depth, shape[1]);
-    out.col(0) = side * unit * depth;
+    out.col(0) = side * unit(scales) * depth;
+  }
+
+  void evaluate_each(JointStates const& at, ParametersOfEach const& shapes, JointScales const& scales,
+                     EffectColumns out) const override {
+    Scratch const side = shapes.col(0).unaryExpr([&](double stop) { return side_of(stop, scales); });
+    Scratch const depth = press(at, side, NumberOfEach(shapes.col(0)), scales, out);
+    Scratch grown = depth;
+    power_of_size(grown, NumberOfEach(shapes.col(1)));
+    out.col(0) = side * unit(scales) * (shapes.col(1) == 1.0).select(depth, grown);
+  }
+
+  static double unit(JointScales const& scales) { return share_of_travel * scales.position_range; }
+
+  static double side_of(double stop, JointScales const& scales) { return stop >= scales.position_centre ? 1.0 : -1.0; }
+
+  // how deep the stop is pressed, in units; puts the column of the damping
+  template <typename Side, typename Number>
+  static Scratch press(JointStates const& at, Side const& side, Number const& stop, JointScales const& scales,
+                       EffectColumns out) {
+    Scratch const depth = (side * (at.q - stop)).max(0.0) / unit(scales);
+    out.col(1) = (depth > 0.0).select(at.dq, 0.0);
+    return depth;
   }
 };
 

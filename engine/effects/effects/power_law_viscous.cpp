@@ -41,9 +41,19 @@ class PowerLawViscous final : public InstantEffect {
  private:
   void evaluate(JointStates const& at, std::span<double const> shape, JointScales const&,
                 EffectColumns out) const override {
+    grow(at, shape[0], out);
+  }
+
+  void evaluate_each(JointStates const& at, ParametersOfEach const& shapes, JointScales const&,
+                     EffectColumns out) const override {
+    grow(at, NumberOfEach(shapes.col(0)), out);
+  }
+
+  template <typename Number>
+  static void grow(JointStates const& at, Number const& exponent, EffectColumns out) {
     auto grown = out.col(0);
     grown = at.dq;
-    power_of_size(grown, shape[0]);
+    power_of_size(grown, exponent);
     grown *= sign(at.dq);
   }
 };

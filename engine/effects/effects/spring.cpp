@@ -44,10 +44,21 @@ class Spring final : public InstantEffect {
  private:
   void evaluate(JointStates const& at, std::span<double const> shape, JointScales const&,
                 EffectColumns out) const override {
-    out.col(0) = at.q;
-    if (shape.empty()) return;
-    Scratch const x = at.q - shape[1];
-    out.col(0) += shape[0] * x * x.square();
+    if (shape.empty())
+      out.col(0) = at.q;
+    else
+      harden(at, shape[0], shape[1], out);
+  }
+
+  void evaluate_each(JointStates const& at, ParametersOfEach const& shapes, JointScales const&,
+                     EffectColumns out) const override {
+    harden(at, NumberOfEach(shapes.col(0)), NumberOfEach(shapes.col(1)), out);
+  }
+
+  template <typename Number>
+  static void harden(JointStates const& at, Number const& hardening, Number const& rest, EffectColumns out) {
+    Scratch const x = at.q - rest;
+    out.col(0) = at.q + hardening * x * x.square();
   }
 };
 

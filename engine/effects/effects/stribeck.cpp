@@ -36,9 +36,20 @@ class Stribeck final : public InstantEffect {
  private:
   void evaluate(JointStates const& at, std::span<double const> shape, JointScales const& scales,
                 EffectColumns out) const override {
+    fade(at, shape[0], shape[1], scales, out);
+  }
+
+  void evaluate_each(JointStates const& at, ParametersOfEach const& shapes, JointScales const& scales,
+                     EffectColumns out) const override {
+    fade(at, NumberOfEach(shapes.col(0)), NumberOfEach(shapes.col(1)), scales, out);
+  }
+
+  template <typename Number>
+  static void fade(JointStates const& at, Number const& speed, Number const& exponent, JointScales const& scales,
+                   EffectColumns out) {
     auto faded = out.col(0);
-    faded = at.dq / shape[0];
-    power_of_size(faded, shape[1]);
+    faded = at.dq / speed;
+    power_of_size(faded, exponent);
     faded = -faded;
     exponential(faded);
     faded *= friction_sign(at.dq, scales);

@@ -33,13 +33,19 @@ class TorqueConstant final : public InstantEffect {
 
   void torques(JointStates const& at, std::span<double const> parameters, JointScales const&,
                std::span<double> out) const override {
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      double const recorded = at.motor_torque[static_cast<Eigen::Index>(i)];
-      out[i] = recorded - given(recorded, parameters[0]);
-    }
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = missing(at.motor_torque[static_cast<Eigen::Index>(i)], parameters[0]);
+  }
+
+  void torques_of_each(JointStates const& at, ParametersOfEach const& parameters, JointScales const&,
+                       std::span<double> out) const override {
+    for (Eigen::Index i = 0; i < at.size(); ++i)
+      out[static_cast<std::size_t>(i)] = missing(at.motor_torque[i], parameters(i, 0));
   }
 
  private:
+  static double missing(double recorded, double beta) { return recorded - given(recorded, beta); }
+
   // Newton from above: the cubic is convex there, so that it never steps past the root
   static double given(double recorded, double beta) {
     constexpr int enough = 6;

@@ -57,6 +57,7 @@ LmOptions options_of(LoopQuestion const& question, LoopSearch search) {
   if (search != LoopSearch::to_its_end) {
     options.iterations = search == LoopSearch::a_look ? a_look : a_little;
     options.passes = 1;
+    options.widens = false;  // whoever follows it does
   }
   return options;
 }
@@ -220,8 +221,9 @@ bool hangs_on(LoopQuestion const& question, LoopFit const& without, LoopFit cons
   LoopFit inside = fit;
   for (LoopSearch const search : {LoopSearch::a_look, LoopSearch::a_little}) {
     RolloutModel const held = inside.point.model(question).with_held(number, middle);
-    inside.fit =
-        fit_rollouts_from(held, question.fitted, question.counts, inside.point.starts, options_of(question, search), 1);
+    LmOptions options = options_of(question, search);
+    options.widens = true;  // nothing follows
+    inside.fit = fit_rollouts_from(held, question.fitted, question.counts, inside.point.starts, options, 1);
     if (inside.fit.failed) return true;
     inside.point = moved_to(inside.point, inside.fit.parameters);
     inside.point.starts = inside.fit.starts;

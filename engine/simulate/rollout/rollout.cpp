@@ -7,10 +7,10 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/simulate/lane_controller.hpp"
+#include "engine/simulate/lane_effect.hpp"
 #include "engine/simulate/lane_motion.hpp"
 #include "engine/simulate/rollout/chunk_inputs.hpp"
 #include "engine/simulate/rollout/loop_lanes.hpp"
-#include "engine/simulate/trial_effect.hpp"
 #include "kernels/aligned_doubles.hpp"
 
 namespace torquescope {
@@ -55,7 +55,9 @@ class Lanes {
   Lanes(RolloutTrack const& track, RolloutStructure const& structure, std::span<RolloutTrial const> trials)
       : has_controller_(track.controller.has_value()),
         loops(track.tick_s(), structure.hold_ticks, structure.speed_samples) {
-    std::vector<std::vector<std::vector<double>>> parameters(structure.effects.size());
+    std::vector<Eigen::ArrayXXd> parameters;
+    for (auto const& values : trials.front().effects)
+      parameters.emplace_back(static_cast<Eigen::Index>(replicate_lanes), static_cast<Eigen::Index>(values.size()));
     for (std::size_t lane = 0; lane < replicate_lanes; ++lane) {
       used.push_back(on_track(track, trials[lane < trials.size() ? lane : 0]));
       RolloutTrial const& trial = used.back();
@@ -67,12 +69,14 @@ class Lanes {
       loops.set(lane, trial.loop);
       loops.set_encoder(lane, trial.encoder_step, trial.encoder_phase);
       delay_ticks.push_back(trial.loop.command_delay_s / track.tick_s());
-      for (std::size_t e = 0; e < parameters.size(); ++e) parameters[e].push_back(trial.effects[e]);
+      for (std::size_t e = 0; e < parameters.size(); ++e)
+        for (std::size_t k = 0; k < trial.effects[e].size(); ++k)
+          parameters[e](static_cast<Eigen::Index>(lane), static_cast<Eigen::Index>(k)) = trial.effects[e][k];
     }
     LaneBaseline beside;
     beside.joint = rolled.joints;
     for (std::size_t e = 0; e < parameters.size(); ++e)
-      makers.push_back(trial_effect(*structure.effects[e], parameters[e], structure.scales, beside));
+      makers.push_back(lane_effect_of_each(*structure.effects[e], parameters[e], structure.scales, beside));
     double const longest_s = std::min(structure.step_s, track.tick_s());
     steps = static_cast<std::size_t>(std::ceil(track.tick_s() / longest_s * (1.0 - 1e-9)));
     braked = rolled.joints;

@@ -33,7 +33,7 @@ class Search {
       for (std::int64_t i = 0; i < options_.iterations; ++i) {
         if (stop_ && stop_()) break;
         ++fit.iterations;
-        fit.is_at_rest = !improve(at, best, pass + 1 < options_.passes);
+        fit.is_at_rest = !improve(at, best, !options_.widens || pass + 1 < options_.passes);
         if (fit.is_at_rest) break;
       }
     }

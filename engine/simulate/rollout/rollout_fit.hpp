@@ -36,6 +36,7 @@ struct LmOptions {
   // of the statistic, whose noise is a few: an iteration that gains less ends the search; no key of a job
   double least_gain = 0.1;
   double least_share = 0.0;  // the same as a share of n_eff, a fall of ln S; no key of a job
+  bool widens = true;        // differences in the last pass; no key of a job
 
   static OptionTable<LmOptions> const& table();
 };

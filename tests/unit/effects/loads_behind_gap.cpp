@@ -43,7 +43,7 @@ std::size_t expect_bits_of_one_alone(double film_per_s, double drag, JointScales
   LoadBehindGap const fresh(2e-3, 40.0, 0.1, film_per_s, drag, scales);
   auto const together = loads_behind_gap(fresh, lanes);
   std::vector<LoadBehindGap> alone(lanes, fresh);
-  std::vector<double> const inertia{0.7};
+  Eigen::ArrayXXd const inertia = Eigen::ArrayXXd::Constant(static_cast<Eigen::Index>(lanes), 1, 0.7);
   std::size_t in_gap = 0;
   for (int k = 0; k < 2000; ++k) {
     double const step_s = k % 3 == 0 ? 1e-3 : 2.5e-3;  // one sub-step, and several

@@ -93,7 +93,7 @@ TEST_P(LoadsOnSpring, HaveTheBitsOfOneAloneInEveryLane) {
       };
       JointStates const at{of(nothing), of(nothing), of(nothing), of(ddq), of(nothing), of(nothing)};
       together->advance(at, step_s);
-      together->torques(at, std::array{0.7}, found);
+      together->torques(at, Eigen::ArrayXXd::Constant(static_cast<Eigen::Index>(lanes), 1, 0.7), found);
       for (std::size_t lane = 0; lane < lanes; ++lane) ASSERT_EQ(found[lane], 0.7 * alone[lane].pull()) << k;
     }
   }

@@ -64,7 +64,10 @@ TEST(MemoryLanes, AreThoseOfEachByItself) {
   JointScales const scales = joint.baseline(motion).scales;
   for (MemoryEffect const* effect : memories()) {
     auto const parameters = test::parameters_with(*effect, test::shape_between(*effect, scales));
-    std::span<double const> const all(parameters), linear = all.first(effect->n_linear());
+    std::span<double const> const all(parameters);
+    auto const width = static_cast<Eigen::Index>(effect->n_linear());
+    Eigen::ArrayXXd const linear =
+        Eigen::Map<Eigen::ArrayXXd const>(parameters.data(), 1, width).replicate(Eigen::Index{n_lanes}, 1);
     auto const together = effect->memory(all.subspan(effect->n_linear()), scales, n_lanes);
     std::vector<std::unique_ptr<EffectRunner>> alone;
     for (std::size_t lane = 0; lane < n_lanes; ++lane) alone.push_back(effect->runner(parameters, scales));

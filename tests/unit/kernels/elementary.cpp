@@ -211,6 +211,27 @@ TEST_P(Elementary, GivesTheBitsOfOneElementAtEveryPlaceInPlace) {
   }
 }
 
+TEST_P(Elementary, WithNumbersOfTheirOwnEachHasTheBitsOfItAlone) {
+  auto x = sizes(-20.0, 8.0);
+  x[0] = 0.0;
+  x[1] = -infinity;
+  x[2] = 0.0;
+  for (std::size_t const count : {0, 1, 3, 8, 19}) {
+    std::vector<double> numbers(count), p(count), c(count), s(count);
+    for (std::size_t i = 0; i < count; ++i) numbers[i] = 0.6 * static_cast<double>(i % 7) - 1.2;  // 0 among them
+    power_of_size(x.data(), numbers.data(), count, p.data());
+    cosine_sine_of_multiple(numbers.data(), x.data(), count, c.data(), s.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      double one = 0.0, other = 0.0;
+      power_of_size(&x[i], numbers[i], 1, &one);
+      ASSERT_EQ(p[i], one) << x[i] << " to " << numbers[i];
+      cosine_sine_of_multiple(numbers[i], &x[i], 1, &one, &other);
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(c[i]), std::bit_cast<std::uint64_t>(one));
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(s[i]), std::bit_cast<std::uint64_t>(other));
+    }
+  }
+}
+
 // FNV-1a over the bits
 std::uint64_t hash_of(std::vector<std::vector<double>> const& arrays) {
   std::uint64_t hash = 14695981039346656037U;

@@ -1,6 +1,6 @@
 // Effects of trials that differ from lane to lane: each lane has what it would have alone, to the last bit.
 
-#include "engine/simulate/trial_effect.hpp"
+#include "engine/simulate/lane_effect.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 using namespace torquescope;
 
-namespace trial_effect_test {
+namespace lane_effect_of_each_test {
 
 JointScales scales() {
   JointScales made;
@@ -48,6 +48,15 @@ LaneBaseline baseline() {
     made.joint.set(lane, {0.05 * more, 0.1, 0.6 * more, -0.2});
   }
   return made;
+}
+
+Eigen::ArrayXXd rows_of(std::vector<std::vector<double>> const& parameters) {
+  Eigen::ArrayXXd rows(static_cast<Eigen::Index>(parameters.size()),
+                       static_cast<Eigen::Index>(parameters.front().size()));
+  for (Eigen::Index lane = 0; lane < rows.rows(); ++lane)
+    for (Eigen::Index k = 0; k < rows.cols(); ++k)
+      rows(lane, k) = parameters[static_cast<std::size_t>(lane)][static_cast<std::size_t>(k)];
+  return rows;
 }
 
 // three sets of parameters in an order without a pattern
@@ -90,12 +99,12 @@ bool is_anything(Answer const& one, std::size_t lane) {
          one.demand.backward[lane] != 0.0 || one.position[lane] != 0.0 || one.torque[lane] != 0.0;
 }
 
-TEST(TrialEffect, OfEveryLaneIsThatOfTheLaneAlone) {
+TEST(LaneEffectOfEach, OfEveryLaneIsThatOfTheLaneAlone) {
   int effects = 0, with_memory = 0, with_load = 0;
   for (auto const* effect : effect_choices()) {
     if (effect->is_given() || effect->is_of_whole_arm()) continue;
     auto const parameters = parameters_of(*effect);
-    auto const together = trial_effect(*effect, parameters, scales(), baseline())();
+    auto const together = lane_effect_of_each(*effect, rows_of(parameters), scales(), baseline())();
     std::vector<std::unique_ptr<LaneEffect>> alone;
     for (auto const& one : parameters) alone.push_back(lane_effect(*effect, one, scales(), baseline())());
     EXPECT_EQ(together->follows_steps(), alone[0]->follows_steps()) << effect->name();
@@ -119,9 +128,9 @@ TEST(TrialEffect, OfEveryLaneIsThatOfTheLaneAlone) {
   EXPECT_GE(with_load, 2);
 }
 
-TEST(TrialEffect, MadeAgainBeginsAnew) {
+TEST(LaneEffectOfEach, MadeAgainBeginsAnew) {
   Effect const& effect = *find_effect("presliding");
-  auto const make = trial_effect(effect, parameters_of(effect), scales(), baseline());
+  auto const make = lane_effect_of_each(effect, rows_of(parameters_of(effect)), scales(), baseline());
   auto const first = make();
   Answer fresh = answer(*first, instant(0));
   for (int tick = 1; tick < 50; ++tick) answer(*first, instant(tick));
@@ -130,4 +139,4 @@ TEST(TrialEffect, MadeAgainBeginsAnew) {
   EXPECT_FALSE(same_in_lane(fresh, later, 0));
 }
 
-}  // namespace trial_effect_test
+}  // namespace lane_effect_of_each_test
