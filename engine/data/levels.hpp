@@ -105,6 +105,8 @@ inline constexpr double repeats_worth_saying = 3.0, share_of_repeats_worth_sayin
 inline constexpr std::size_t far_value_repeats = 4, far_value_places = 3, far_value_rows = 5;
 inline constexpr double ranges_beyond = 3.0, times_steps_around = 5.0, times_typical_step = 10.0;
 inline constexpr double times_encoder_step = 8.0;
+// convention: of the places that lie so, whatever their value; spikes of a coarse channel are spread over many values
+inline constexpr double far_value_share = 0.25;
 // convention: rows around a single one that say how far a row is from its neighbours; four steps are no flicker
 inline constexpr std::size_t rows_around_lone_row = 25, most_lone_rows = 30;
 inline constexpr double steps_of_lone_row = 4.0, bends_of_lone_row = 3.0;

@@ -156,10 +156,11 @@ double single_precision_unit(std::vector<double> const& stamps) {
   double const largest = std::max(std::fabs(stamps.front()), std::fabs(stamps.back()));
   if (!(largest > 0.0)) return 0.0;
   double const unit = std::ldexp(1.0, std::ilogb(largest) - digits_of_float + 1);
-  // printed with nine digits, as C does to keep a float, they are off by half of the last one
-  constexpr double far_finer = 0.1;
+  // printed with nine digits, as C does to keep a float, they are off by half of the last one: 1e-8 t at most, beside a
+  // bit of 2^-24 t at least
+  constexpr double nine_digits = 1e-8 * 0x1p24;
   double const printed = printed_unit(stamps), rounding = 0.6;
-  double const off = std::max(1e-3 * unit, printed <= far_finer * unit ? rounding * printed : 0.0);
+  double const off = std::max(1e-3 * unit, printed <= nine_digits * unit ? rounding * printed : 0.0);
   bool const fits = std::all_of(stamps.begin(), stamps.end(), [&](double t) {
     double const nearest = static_cast<double>(static_cast<float>(t));
     return std::fabs(t - nearest) <= off;

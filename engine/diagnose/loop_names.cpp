@@ -45,10 +45,6 @@ NamedEffect named_move(KeptMove const& move, LoopFacts const& loop) {
   return as_simulated(std::move(named), move.subject, loop);
 }
 
-bool is_kept_itself(LoopFacts const& loop, LoopSubject const& subject) {
-  return std::any_of(loop.kept.begin(), loop.kept.end(), [&](KeptMove const& move) { return move.subject == subject; });
-}
-
 bool has_name(std::vector<NamedEffect> const& effects, std::string const& name) {
   return std::any_of(effects.begin(), effects.end(), [&](NamedEffect const& one) { return one.name == name; });
 }
@@ -68,7 +64,7 @@ void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts c
       effect = scan.accepted[i].effect;
       stands = stands || names.effects[i];
     }
-    bool const is_simulated = effect != nullptr && names.of_other_model && is_kept_itself(loop, {effect});
+    bool const is_simulated = effect != nullptr && names.of_other_model && loop.is_kept({effect});
     if (effect != nullptr ? stands : keeps_delay)
       standing.push_back(is_simulated ? as_simulated(std::move(named), {effect}, loop) : std::move(named));
   }

@@ -286,8 +286,8 @@ LaneEffectMaker known_torque(Effect const& effect, Eigen::ArrayXXd const& parame
 
 LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
                             LaneBaseline const& baseline) {
-  Eigen::Map<Eigen::ArrayXd const> const one(parameters.data(), static_cast<Eigen::Index>(parameters.size()));
-  return lane_effect_of_each(effect, one.transpose().replicate(replicate_lanes, 1), scales, baseline);
+  Eigen::Map<Eigen::ArrayXd const> const each(parameters.data(), static_cast<Eigen::Index>(parameters.size()));
+  return lane_effect_of_each(effect, each.transpose().replicate(replicate_lanes, 1), scales, baseline);
 }
 
 LaneEffectMaker lane_effect_of_each(Effect const& effect, Eigen::ArrayXXd parameters, JointScales const& scales,

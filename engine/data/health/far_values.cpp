@@ -58,7 +58,7 @@ struct Place {
   std::size_t first, end;
 };
 
-// each value that is met in several places
+// where each value is met
 std::map<double, std::vector<Place>> places_of(std::vector<double> const& x) {
   std::map<double, std::vector<Place>> places;
   for (std::size_t i = 0; i < x.size();) {
@@ -67,7 +67,6 @@ std::map<double, std::vector<Place>> places_of(std::vector<double> const& x) {
     places[x[i]].push_back({i, end});
     i = end;
   }
-  std::erase_if(places, [](auto const& one) { return one.second.size() < levels::far_value_places; });
   return places;
 }
 
@@ -120,6 +119,8 @@ std::vector<FarValue> values_inside(std::vector<double> const& values) {
   double const least =
       std::max(levels::times_typical_step * typical_step(x), levels::times_encoder_step * quantisation_step(x));
   std::vector<FarValue> found;
+  std::vector<std::size_t> counts;  // of far places
+  std::size_t all = 0;
   for (auto const& [value, places] : places_of(x)) {
     FarValue far{value, {}};
     std::size_t count = 0;
@@ -128,9 +129,17 @@ std::vector<FarValue> values_inside(std::vector<double> const& values) {
       ++count;
       for (std::size_t k = place.first; k < place.end; ++k) far.rows.push_back(known[k]);
     }
-    if (count >= levels::far_value_places && 2 * count >= places.size()) found.push_back(std::move(far));
+    all += count;
+    if (count < levels::far_value_places || 2 * count < places.size()) continue;
+    found.push_back(std::move(far));
+    counts.push_back(count);
   }
-  return found;
+  // spikes of a coarse channel are spread over many values, some of which repeat
+  std::vector<FarValue> sentinels;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (static_cast<double>(counts[i]) >= levels::far_value_share * static_cast<double>(all))
+      sentinels.push_back(std::move(found[i]));
+  return sentinels;
 }
 
 }  // namespace torquescope

@@ -5,7 +5,8 @@
 // Outside    met at least four times, and further from all other values than three times their range; -v counts as v.
 //            Zero is none: a drive that is off says so
 // Inside     in at least three places of up to five rows, half of all its places, away from where the rows around lead
-//            and back: five times the steps beside them, and ten times the typical step
+//            and back: five times the steps beside them, and ten times the typical step; a quarter of all places of
+//            any value that lie so
 // Shapes     values: one per row; NaN is skipped
 // Threads    free functions
 

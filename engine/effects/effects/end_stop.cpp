@@ -69,7 +69,7 @@ class EndStop final : public InstantEffect {
   template <typename Side, typename Number>
   static Scratch press(JointStates const& at, Side const& side, Number const& stop, JointScales const& scales,
                        EffectColumns out) {
-    Scratch const depth = (side * (at.q - stop)).max(0.0) / unit(scales);
+    Scratch depth = (side * (at.q - stop)).max(0.0) / unit(scales);
     out.col(1) = (depth > 0.0).select(at.dq, 0.0);
     return depth;
   }

@@ -20,8 +20,6 @@ AcceptedModel dropped(DecisionContext const& on, AcceptedModel model, std::size_
 
 }  // namespace
 
-DelayChoice free_delay(DecisionNumbers const& numbers) { return {DelaySearch::everywhere, numbers.longest_delay_s}; }
-
 FittedModel fitted_with(DecisionContext const& on, std::vector<ShapedEffect> effects, FittedStrips const& sizes) {
   return fitted_model(on.rows, on.question.regressor, std::move(effects), &sizes, free_delay(on.question.numbers));
 }

@@ -25,7 +25,6 @@ struct AcceptedModel {
   double judged = 0.0;  // its error on judged rows
 };
 
-DelayChoice free_delay(DecisionNumbers const& numbers);
 FittedModel fitted_with(DecisionContext const& on, std::vector<ShapedEffect> effects, FittedStrips const& sizes);
 
 std::vector<ShapedEffect> shaped_effects(AcceptedModel const& model);

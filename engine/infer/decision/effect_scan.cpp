@@ -114,7 +114,7 @@ std::vector<EffectQuestion> effect_questions(std::vector<Effect const*> const& e
                                              double shortest) {
   std::vector<EffectQuestion> questions;
   for (auto const* effect : effects) {
-    EffectQuestion question{effect, shape_grid(*effect, scales)};
+    EffectQuestion question{effect, shape_grid(*effect, scales), scales};
     std::vector<std::vector<double>> axes = question.grid.axes;
     bool is_shorter = false;
     for (std::size_t k = 0; k < axes.size(); ++k)
@@ -125,7 +125,11 @@ std::vector<EffectQuestion> effect_questions(std::vector<Effect const*> const& e
       }
     if (std::any_of(axes.begin(), axes.end(), [](auto const& axis) { return axis.empty(); })) continue;
     if (is_shorter) question.grid = grid_over(question.grid.ranges, axes, GridPoints::lattice);
-    questions.push_back(std::move(question));
+    ShapeGrid const whole = question.grid;
+    question.grid.places.clear();
+    for (std::size_t point = 0; point < whole.size(); ++point)
+      if (effect->is_plausible(whole.point(point), scales)) question.grid.places.push_back(whole.places[point]);
+    if (!question.grid.places.empty()) questions.push_back(std::move(question));
   }
   return questions;
 }

@@ -51,7 +51,8 @@ OrthonormalGroup effect_group(FittedStrips const& fitted, Eigen::MatrixXd const&
 
 struct EffectQuestion {
   Effect const* effect = nullptr;
-  ShapeGrid grid{};
+  ShapeGrid grid{};  // where the effect is what its name says
+  JointScales scales{};
   bool is_same_for_all = false;  // columns are those of the recording in every replicate
 };
 

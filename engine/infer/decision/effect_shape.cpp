@@ -1,6 +1,7 @@
 #include "engine/infer/decision/effect_shape.hpp"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,7 +29,11 @@ class ShapeSearch {
   OrthonormalGroup group(UnitShape const& at) const {
     return effect_group(fitted_, score_.basis(), *question_.effect, question_.grid.from_unit_scale(at));
   }
-  double left(UnitShape const& at) const { return score_.left_with(group(at))[0]; }
+  double left(UnitShape const& at) const {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    bool const is_itself = question_.effect->is_plausible(question_.grid.from_unit_scale(at), question_.scales);
+    return is_itself ? score_.left_with(group(at))[0] : infinite;
+  }
   // what held-out rows lose by the effect, in their logarithm: D, but for n_eff, which differs from shape to shape
   double fall(double left) const { return std::log(score_.left()[0] / left); }
 

@@ -1,7 +1,8 @@
 #pragma once
 // The shape of one effect that leaves the least on held-out rows, beside its best point of the grid.
 //
-// Search     along each shape in turn, in the unit scale of its bounds, from a grid's step down to a thousandth
+// Search     along each shape in turn, in the unit scale of its bounds, from a grid's step down to a thousandth; never
+//            to a shape where the effect is another than its name says
 // Bound      a shape at its end is put in the middle of its range and the others searched again; the effect is at its
 //            bound where more than least_fall of the gain is gone
 // Threads    pure function; deterministic

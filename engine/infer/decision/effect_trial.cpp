@@ -36,7 +36,7 @@ TriedEffect tried(DecisionQuestion const& question, TrialModel const& beside, Ef
   auto effects = beside.effects;
   effects.push_back({effect.effect, refined.shape});
   one.with = fitted_model(beside.rows, question.regressor, std::move(effects), beside.fitted.fitted.get(),
-                          {DelaySearch::everywhere, question.numbers.longest_delay_s});
+                          free_delay(question.numbers));
   bool const is_of_clock = kind == FoldKind::interleaved;
   one.facts.judged_before = is_of_clock ? error_on_folds(beside.rows, beside.fitted) : beside.judged;
   one.facts.judged_after =

@@ -17,10 +17,16 @@ double LoopErrors::both() const {
   return std::isnan(torque) ? position : std::sqrt(position * torque);
 }
 
+bool KeptMove::may_be(LoopSubject const& one) const {
+  return is(one) || std::find(rivals.begin(), rivals.end(), one) != rivals.end();
+}
+
 bool LoopFacts::is_kept(LoopSubject const& subject) const {
-  return std::any_of(kept.begin(), kept.end(), [&](KeptMove const& move) {
-    return move.subject == subject || std::find(move.rivals.begin(), move.rivals.end(), subject) != move.rivals.end();
-  });
+  return std::any_of(kept.begin(), kept.end(), [&](KeptMove const& move) { return move.is(subject); });
+}
+
+bool LoopFacts::may_be_kept(LoopSubject const& subject) const {
+  return std::any_of(kept.begin(), kept.end(), [&](KeptMove const& move) { return move.may_be(subject); });
 }
 
 bool LoopFacts::is_chance(LoopSubject const& subject) const {

@@ -84,6 +84,9 @@ struct KeptMove {
   double p = 1.0;     // of the step that took it
   std::vector<LoopNumber> numbers{};
   std::vector<LoopSubject> rivals{};  // that stand in its place about as well
+
+  bool is(LoopSubject const& one) const { return subject == one; }
+  bool may_be(LoopSubject const& one) const;  // it is, or a rival is
 };
 
 struct LoopFacts {
@@ -99,7 +102,8 @@ struct LoopFacts {
   std::vector<LoopNumber> numbers{};  // of the final model
 
   bool decides() const { return reason == LoopReason::decides; }
-  bool is_kept(LoopSubject const& subject) const;  // or stands in the place of one
+  bool is_kept(LoopSubject const& subject) const;
+  bool may_be_kept(LoopSubject const& subject) const;  // or stands in the place of one
   // asked of torque and position, and reached by replicates of every model beside which it was; a position that a stiff
   // loop holds says little of a torque
   bool is_chance(LoopSubject const& subject) const;

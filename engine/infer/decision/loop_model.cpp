@@ -241,6 +241,12 @@ bool is_at_bound(LoopQuestion const& question, LoopFit const& without, LoopFit c
   RolloutModel const model = fit.point.model(question);
   auto const places = places_of(question, fit.point, move);
   LoopSubject const& subject = question.moves[move].subject;
+  if (!subject.is_of_command()) {
+    std::vector<double> shape;
+    for (std::size_t k = subject.effect->n_linear(); k < places.size(); ++k)
+      shape.push_back(fit.fit.parameters[static_cast<Index>(places[k])]);
+    if (!subject.effect->is_plausible(shape, question.scales)) return true;
+  }
   for (std::size_t k = 0; k < places.size(); ++k) {
     auto const& one = model.parameters()[places[k]];
     double const value = fit.fit.parameters[static_cast<Index>(places[k])];

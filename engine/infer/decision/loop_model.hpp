@@ -88,7 +88,8 @@ double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels co
 // numbers of a move, or of the whole model
 std::vector<LoopNumber> numbers_of(LoopQuestion const& question, LoopFit const& fit,
                                    std::optional<std::size_t> move = {});
-// whether the gain over the fit without a move hangs on one of its numbers being at the end of its range
+// whether the gain over the fit without a move hangs on one of its numbers being at the end of its range, or an effect
+// is another there than its name says
 bool is_at_bound(LoopQuestion const& question, LoopFit const& without, LoopFit const& fit, std::size_t move);
 
 }  // namespace torquescope

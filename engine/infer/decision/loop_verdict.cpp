@@ -14,13 +14,8 @@ namespace {
 
 LoopSubject const command_delay{nullptr, LoopKey::command_delay_s};
 
-bool is_of(KeptMove const& move, LoopSubject const& subject) { return move.subject == subject; }
-
-bool is_of_class(KeptMove const& move, LoopSubject const& subject) {
-  return is_of(move, subject) || std::find(move.rivals.begin(), move.rivals.end(), subject) != move.rivals.end();
-}
-
-using Tells = bool (*)(KeptMove const&, LoopSubject const&);
+// of a kept move: whether it tells an effect
+using Tells = bool (KeptMove::*)(LoopSubject const&) const;
 
 // which effects of the scan a kept move tells
 std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop, Tells tells) {
@@ -30,10 +25,10 @@ std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop,
   for (auto const& facts : scan.accepted) {
     LoopSubject const subject{facts.effect};
     bool const is_told =
-        std::any_of(loop.kept.begin(), loop.kept.end(), [&](auto const& move) { return tells(move, subject); });
+        std::any_of(loop.kept.begin(), loop.kept.end(), [&](auto const& move) { return (move.*tells)(subject); });
     // other recordings say nothing of a clock: only another explanation speaks against it
     bool const runs_by_itself = is_clock_bound(*facts.effect) && !has_command && !loop.is_chance(subject);
-    told.push_back(is_told || (runs_by_itself && !loop.is_kept(subject)));
+    told.push_back(is_told || (runs_by_itself && !loop.may_be_kept(subject)));
   }
   return told;
 }
@@ -43,7 +38,7 @@ std::vector<KeptMove> further_moves(DecisionFacts const& scan, LoopFacts const& 
   std::vector<KeptMove> further;
   for (auto const& move : loop.kept) {
     bool const is_told = std::any_of(scan.accepted.begin(), scan.accepted.end(),
-                                     [&](EffectFacts const& facts) { return tells(move, {facts.effect}); });
+                                     [&](EffectFacts const& facts) { return (move.*tells)({facts.effect}); });
     if (!is_told && !(move.subject == command_delay)) further.push_back(move);
   }
   return further;
@@ -57,13 +52,13 @@ StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop) {
   names.effects.assign(scan.accepted.size(), true);
   names.has_delay = scan.delay.is_named;
   if (!names.by_loop) return names;
-  names.effects = told_effects(scan, loop, is_of_class);
-  names.added = further_moves(scan, loop, is_of_class);
+  names.effects = told_effects(scan, loop, &KeptMove::may_be);
+  names.added = further_moves(scan, loop, &KeptMove::may_be);
   names.drops_effects = std::find(names.effects.begin(), names.effects.end(), false) != names.effects.end();
   names.of_other_model = names.drops_effects || !names.added.empty();
   if (names.of_other_model) {
-    names.effects = told_effects(scan, loop, is_of);
-    names.added = further_moves(scan, loop, is_of);
+    names.effects = told_effects(scan, loop, &KeptMove::is);
+    names.added = further_moves(scan, loop, &KeptMove::is);
   }
   auto const delay = std::find_if(loop.kept.begin(), loop.kept.end(),
                                   [](KeptMove const& move) { return move.subject == command_delay; });

@@ -20,7 +20,7 @@ std::optional<ModelErrors> errors_of_names(DecisionQuestion const& question, Joi
     effects.push_back(std::move(effect));
   }
   for (std::size_t i = 0; i < names.effects.size(); ++i)
-    if (EffectFacts const& own = scan.facts.accepted[i]; names.effects[i] && !loop.is_kept({own.effect}))
+    if (EffectFacts const& own = scan.facts.accepted[i]; names.effects[i] && !loop.may_be_kept({own.effect}))
       effects.push_back({own.effect, own.shape});
   return errors_of(scan.rows, fitted_model(scan.rows, question.regressor, std::move(effects), scan.final.fitted.get(),
                                            free_delay(question.numbers)));

@@ -94,8 +94,7 @@ class Replicates {
     }
     std::vector<std::unique_ptr<FittedStrips>> each(replicate_lanes);
     parallel_for(replicate_lanes, q_.threads, [&](std::size_t t, int) {
-      each[t] = std::make_unique<FittedStrips>(*task_.model.model, share(std::move(strips[t])),
-                                               DelayChoice{DelaySearch::everywhere, q_.numbers.longest_delay_s});
+      each[t] = std::make_unique<FittedStrips>(*task_.model.model, share(std::move(strips[t])), free_delay(q_.numbers));
     });
     std::vector<FittedStrips> fitted;
     for (auto& one : each) fitted.push_back(std::move(*one));

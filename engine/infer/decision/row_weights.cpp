@@ -57,8 +57,7 @@ std::vector<Strip> weighed(DecisionQuestion const& question, std::span<Recording
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(own.on().rows());
   double count = 0.0;
   for (auto& replicate : drawn) {
-    FittedStrips const fitted(*model.model, share(std::move(replicate)),
-                              {DelaySearch::everywhere, question.numbers.longest_delay_s});
+    FittedStrips const fitted(*model.model, share(std::move(replicate)), free_delay(question.numbers));
     if (!fitted.residual().allFinite()) continue;
     squares += fitted.residual().cwiseAbs2();
     count += 1.0;

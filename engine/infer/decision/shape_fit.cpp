@@ -56,6 +56,11 @@ std::vector<ShapedEffect> moved(JointModel const& model, std::vector<MovingShape
   return effects;
 }
 
+bool are_plausible(std::vector<ShapedEffect> const& effects, JointScales const& scales) {
+  return std::all_of(effects.begin(), effects.end(),
+                     [&](ShapedEffect const& one) { return one.effect->is_plausible(one.shape, scales); });
+}
+
 double squares(FittedModel const& by) { return by.fitted->chosen().fit.energy(); }
 
 // along the step, as long as it has to be for squares to fall
@@ -65,7 +70,9 @@ std::optional<FittedModel> better(FittedModel const& than, std::vector<MovingSha
   constexpr double least_fall = 1e-3;  // relative: where a search has come to rest
   VectorXd step = full_step(than, moving);
   for (int k = 0; k < halvings; ++k, step *= 0.5) {
-    FittedModel trial = fitted_with(moved(*than.model, moving, step));
+    auto effects = moved(*than.model, moving, step);
+    if (!are_plausible(effects, than.model->reference().scales)) continue;
+    FittedModel trial = fitted_with(std::move(effects));
     if (squares(trial) < (1.0 - least_fall) * squares(than)) return trial;
   }
   return std::nullopt;

@@ -7,6 +7,7 @@
 // Threads    pure functions
 // Source     engine/infer/decision/THEORY.md, Rows
 
+#include "engine/infer/decision/decision_numbers.hpp"
 #include "engine/infer/decision/sticking_shape.hpp"
 #include "engine/infer/decision/treated_fit.hpp"
 
@@ -19,6 +20,10 @@ struct DelayChoice {
   double longest_s = 0.0;
   double given_s = 0.0;  // where none is searched
 };
+
+inline DelayChoice free_delay(DecisionNumbers const& numbers) {
+  return {DelaySearch::everywhere, numbers.longest_delay_s};
+}
 
 struct ChosenTreatment {
   double late_s = 0.0;

@@ -260,4 +260,20 @@ TEST(LoopLadder, IsTheSameOnTwoThreads) {
   EXPECT_EQ(std::memcmp(one.data(), two.data(), one.size() * sizeof(double)), 0);
 }
 
+// 1e5 |dq|^1.0001 less as much viscous friction would fit as well as any gentle curve
+TEST(LoopModel, APowerLawOfTheFirstPowerIsAtItsBound) {
+  Asked const asked = asked_of({});
+  LoopQuestion question = asked.question(1);
+  std::size_t const move = question.moves.size();
+  question.moves.push_back(effect_move(*find_effect("power_law_viscous"), {0.6}, asked.scales));
+  LoopFit const without = fitted(question, base_point(question), LoopSearch::a_look);
+  LoopFit with = fitted(question, with_move(question, without.point, move, {0.6}), LoopSearch::a_look);
+  ASSERT_FALSE(with.fit.failed);
+  with.fit.parameters[4] = 0.1;
+  for (double const exponent : {0.5, 0.85, 0.95, 1.0, 1.05, 1.5}) {
+    with.fit.parameters[5] = exponent;
+    EXPECT_EQ(is_at_bound(question, without, with, move), std::abs(exponent - 1.0) < 0.1) << exponent;
+  }
+}
+
 }  // namespace loop_ladder_test

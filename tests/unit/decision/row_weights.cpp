@@ -32,7 +32,7 @@ struct Weighed {
     question.validation = validation;
     question.seed = 3;
     plain = joint_strips(question);
-    DelayChoice const delay{DelaySearch::everywhere, question.numbers.longest_delay_s};
+    DelayChoice const delay = free_delay(question.numbers);
     FittedModel const alone = fitted_model(plain, terms, {}, nullptr, delay);
     model = fitted_model(plain, terms, {}, alone.fitted.get(), delay);
     rows = weighed_rows(question, plain, model);

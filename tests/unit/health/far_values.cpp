@@ -59,6 +59,21 @@ TEST(ValuesInside, AreThoseThatTheRowsAroundContradict) {
   EXPECT_GE(found.front().rows.size(), rows.size() * 9 / 10);
 }
 
+// a noisy drive of coarse steps: some spikes agree by chance, and are no value of a driver
+TEST(ValuesInside, AreNoneOfManySpikesOnACoarseScale) {
+  constexpr double step = 0.05;
+  auto values = torque(0.02, step);
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> size(1.5, 2.5);
+  for (std::size_t i = 40; i + 3 < values.size(); i += 37)
+    values[i] = step * std::round((values[i - 1] - size(engine)) / step);
+  EXPECT_TRUE(values_inside(values).empty());
+  for (std::size_t i = 50; i + 3 < values.size(); i += 37) values[i] = -5.5;
+  auto const found = values_inside(values);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().value, -5.5);
+}
+
 TEST(FarValues, AreNoneOfASoundSignal) {
   for (double noise : {0.0, 0.02, 0.3})
     for (double step : {0.0, 0.01, 0.1, 0.5}) {
