@@ -51,8 +51,10 @@ std::string title_of(NamedEffect const& effect) {
 // of a cosine and its sine, the amplitude: which of them is large is a matter of where the zero lies
 ParameterEstimate amplitude_of(ParameterEstimate const& one, ParameterEstimate const& other, std::string name) {
   auto const part = [](ParameterEstimate const& of) { return of.value * 0.5 * (of.upper - of.lower); };
-  double const amplitude = std::hypot(one.value, other.value);
-  double const width = amplitude > 0.0 ? std::hypot(part(one), part(other)) / amplitude : 0.0;
+  // no hypot: that of glibc 2.35 keeps the tarball from older systems
+  auto const length = [](double a, double b) { return std::sqrt(a * a + b * b); };
+  double const amplitude = length(one.value, other.value);
+  double const width = amplitude > 0.0 ? length(part(one), part(other)) / amplitude : 0.0;
   return {std::move(name), one.unit, amplitude, width > amplitude ? 0.0 : amplitude - width, amplitude + width};
 }
 
