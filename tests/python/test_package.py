@@ -223,7 +223,7 @@ class Errors(unittest.TestCase):
         self.assertIsInstance(error, ValueError)
         self.assertEqual([one.key for one in error.problems], ["filter.cutof_hz", "diagnose.twins"])
         self.assertIn("did you mean \"cutoff_hz\"?", str(error))
-        self.assertIn("twins takes 60 to 100000", str(error))
+        self.assertIn("twins takes 20 to 100000", str(error))
 
     def test_of_data_say_which_channel(self):
         still = ts.Recording(time=MOTION.time, position=0 * MOTION.position, torque=MOTION.torque)
