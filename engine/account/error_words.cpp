@@ -108,10 +108,12 @@ std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete) {
   return validation_is_other_sentence(joint).empty() ? mend + "; the model itself needs nothing more" : mend;
 }
 
+bool is_unlike_replicates(JointDiagnosis const& joint) { return joint.omnibus_p < usual_p; }
+
 std::string likeness_sentence(JointDiagnosis const& joint) {
   if (joint.replicates == 0) return fmt::format("Nothing is missing in the model of {}.", which_joint(joint));
   std::string const p = omnibus_text(joint);
-  if (!(joint.omnibus_p < usual_p))
+  if (!is_unlike_replicates(joint))
     return fmt::format("The residual of {} looks like that of {} simulated replicates ({}).", which_joint(joint),
                        joint.replicates, p);
   return fmt::format(
@@ -121,7 +123,7 @@ std::string likeness_sentence(JointDiagnosis const& joint) {
 
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits) {
   Candidate const* refused = surest_refused(joint);
-  bool const is_for_one = joint.omnibus_p >= usual_p && refused && refused->q < usual_p;
+  bool const is_for_one = !is_unlike_replicates(joint) && refused && refused->q < usual_p;
   if (!is_for_one)
     return fmt::format("The residual of {} is not what simulated replicates have ({}), but {}.", which_joint(joint),
                        omnibus_text(joint), nothing_fits);

@@ -131,11 +131,17 @@ std::string without_full_stop(std::string text) {
   return text;
 }
 
+std::string likeness_text(JointDiagnosis const& joint) {
+  if (joint.replicates == 0) return "the model explains the recording";
+  std::string const p = p_text(joint.omnibus_p, false, least_p(joint.replicates));
+  if (!is_unlike_replicates(joint))
+    return fmt::format("the residual is like that of {} simulated replicates ({})", joint.replicates, p);
+  return fmt::format("the residual differs from that of {} simulated replicates ({}) by too little for a name",
+                     joint.replicates, p);
+}
+
 std::string none_text(JointDiagnosis const& joint) {
-  std::string text = joint.replicates > 0
-                         ? fmt::format("the residual is like that of {} simulated replicates ({})", joint.replicates,
-                                       p_text(joint.omnibus_p, false, least_p(joint.replicates)))
-                         : std::string("the model explains the recording");
+  std::string text = likeness_text(joint);
   if (!joint.power_sentence.empty()) text += ". " + without_full_stop(joint.power_sentence);
   return text;
 }

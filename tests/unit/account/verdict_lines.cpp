@@ -106,6 +106,15 @@ TEST(VerdictLines, CallNoErrorOneOfAllSamplesThatIsNot) {
   EXPECT_EQ(lines.rows, "error on rows that move one way: training 5.0 %");
 }
 
+TEST(VerdictLines, CallAResidualLikeReplicatesOnlyWhereTheyLeaveAsMuch) {
+  JointDiagnosis joint = joint_with({});
+  joint.omnibus_p = 0.3;
+  EXPECT_THAT(verdict_lines({}, joint, Verdict::none).what, StartsWith("the residual is like that of 200 simulated"));
+  joint.omnibus_p = 0.021;
+  EXPECT_EQ(verdict_lines({}, joint, Verdict::none).what,
+            "the residual differs from that of 200 simulated replicates (p = 0.021) by too little for a name");
+}
+
 TEST(VerdictLines, TellAJointOfAnArmItsOwnFault) {
   Diagnosis arm;
   arm.finding = "joint 1 stands still";
