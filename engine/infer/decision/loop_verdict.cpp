@@ -33,12 +33,12 @@ std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop,
   return told;
 }
 
-// kept moves that tell no effect of the scan
-std::vector<KeptMove> further_moves(DecisionFacts const& scan, LoopFacts const& loop, Tells tells) {
+// kept moves that are no effect of the scan
+std::vector<KeptMove> further_moves(DecisionFacts const& scan, LoopFacts const& loop) {
   std::vector<KeptMove> further;
   for (auto const& move : loop.kept) {
     bool const is_told = std::any_of(scan.accepted.begin(), scan.accepted.end(),
-                                     [&](EffectFacts const& facts) { return (move.*tells)({facts.effect}); });
+                                     [&](EffectFacts const& facts) { return move.is({facts.effect}); });
     if (!is_told && !(move.subject == command_delay)) further.push_back(move);
   }
   return further;
@@ -52,14 +52,13 @@ StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop) {
   names.effects.assign(scan.accepted.size(), true);
   names.has_delay = scan.delay.is_named;
   if (!names.by_loop) return names;
-  names.effects = told_effects(scan, loop, &KeptMove::may_be);
-  names.added = further_moves(scan, loop, &KeptMove::may_be);
-  names.drops_effects = std::find(names.effects.begin(), names.effects.end(), false) != names.effects.end();
-  names.of_other_model = names.drops_effects || !names.added.empty();
-  if (names.of_other_model) {
-    names.effects = told_effects(scan, loop, &KeptMove::is);
-    names.added = further_moves(scan, loop, &KeptMove::is);
-  }
+  auto const falls = [](std::vector<bool> const& told) {
+    return std::find(told.begin(), told.end(), false) != told.end();
+  };
+  names.drops_effects = falls(told_effects(scan, loop, &KeptMove::may_be));
+  names.effects = told_effects(scan, loop, &KeptMove::is);
+  names.added = further_moves(scan, loop);
+  names.of_other_model = falls(names.effects) || !names.added.empty();
   auto const delay = std::find_if(loop.kept.begin(), loop.kept.end(),
                                   [](KeptMove const& move) { return move.subject == command_delay; });
   if (delay != loop.kept.end()) names.command_delay = delay->numbers.front();
