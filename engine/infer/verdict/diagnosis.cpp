@@ -77,7 +77,11 @@ NamedEffect named_after(Effect const& effect) {
 
 bool is_fault(NamedEffect const& effect) {
   bool const acts_on_a_channel = !effect.acts_on.empty() && effect.acts_on != word(ActsOn::joint);
-  return acts_on_a_channel && std::none_of(effect.equivalent.begin(), effect.equivalent.end(), [](auto const& name) {
+  Effect const* own = find_effect(effect.name);
+  bool const is_early =
+      own && own->is_torque_timing() && !effect.parameters.empty() && effect.parameters[0].value < 0.0;
+  return acts_on_a_channel && !is_early &&
+         std::none_of(effect.equivalent.begin(), effect.equivalent.end(), [](auto const& name) {
            Effect const* known = find_effect(name);
            return known && known->acts_on() == ActsOn::joint;
          });

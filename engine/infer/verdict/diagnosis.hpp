@@ -136,7 +136,8 @@ class Effect;
 // what the catalogue says of it, nothing found yet
 NamedEffect named_after(Effect const& effect);
 
-// of a recorded channel, not physics of the joint; nor may any effect that cannot be excluded be physics
+// Of a recorded channel, not physics of the joint; nor may any effect that cannot be excluded be physics. A torque that
+// comes before its motion may be a command that the drive follows late
 bool is_fault(NamedEffect const& effect);
 
 struct Budget {  // shares of the baseline residual's energy, sum 1

@@ -29,8 +29,8 @@ RATE_HZ, STEP_S, SECONDS = 250, 0.0005, 24
 COUNTS = 262144
 STIFFNESS, DAMPING = np.array([900.0, 900.0, 500.0]), np.array([60.0, 60.0, 30.0])
 NOISE = np.array([0.15, 0.15, 0.08])  # N m, of the log
-# armature, viscous and dry friction, as the model has them. MuJoCo's dry friction turns before the speed does, by half of
-# its time constant: 10 ms unless told, which is a delay that the model lacks
+# armature, viscous and dry friction, as the model has them. MuJoCo's dry friction turns before the speed does, by half
+# of its time constant: 10 ms unless told, which is a delay that the model lacks
 JOINT = '<joint axis="0 0 1" armature="{0}" damping="{1}" frictionloss="{2}" solreffriction="0.001 1"/>'
 ARM = """
 <mujoco>

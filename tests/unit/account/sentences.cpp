@@ -149,6 +149,11 @@ TEST(EffectSentence, TellsFaultsOfAChannelFromPhysics) {
               AllOf(StartsWith("The position of joint 1 is misread"), HasSubstr(", a fault of the recording: ")));
 }
 
+TEST(EffectSentence, CallsATorqueAFaultOnlyWhereItComesAfterItsMotion) {
+  EXPECT_TRUE(is_fault(effect_of(*find_effect("delay"), 0.002)));
+  EXPECT_FALSE(is_fault(effect_of(*find_effect("delay"), -0.002)));
+}
+
 TEST(EffectSentence, CallsNothingAFaultThatPhysicsExplainsAsWell) {
   NamedEffect drift = effect_of(*find_effect("sensor_drift"), 0.1);
   EXPECT_TRUE(is_fault(drift));
