@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +16,7 @@
 #include "engine/base/torque_unit.hpp"
 #include "engine/data/from_zero.hpp"
 #include "engine/diagnose/decision_account.hpp"
+#include "engine/diagnose/effect_names.hpp"
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/loop_names.hpp"
 #include "engine/diagnose/neighbour_load.hpp"
@@ -36,11 +36,6 @@
 
 namespace torquescope {
 namespace {
-
-ParameterEstimate estimate(std::string name, std::string unit, FittedNumber const& number) {
-  double const width = jackknife_quantile * number.deviation;
-  return {std::move(name), std::move(unit), number.value, number.value - width, number.value + width};
-}
 
 // so many that chance below alpha can be counted
 std::int64_t replicates_for(DecisionNumbers const& numbers) {
@@ -163,12 +158,11 @@ class JointWork {
 
   void tell(JointDecision const& decision, LoopFacts const& loop, DecisionQuestion const& question) {
     DecisionFacts const& facts = decision.facts;
-    torque_rms_ = facts.torque_rms;
     joint_.train_relerr = facts.baseline.train;
     joint_.cv_relerr = facts.baseline.held_out;
     joint_.validation_relerr = facts.baseline.validation;
     joint_.replicates = facts.steps.empty() ? 0 : facts.steps.front().replicates;
-    tell_parameters(joint_.baseline, decision.baseline, facts.baseline_parameters);
+    joint_.baseline = estimates_of(*decision.baseline.model, facts.baseline_parameters);
     tell_candidates(facts);
     DecisionOutcome of;
     of.neighbours_predict = others_load_it(question.training.front(), facts);
@@ -191,12 +185,10 @@ class JointWork {
           of.is_complete = of.is_complete && !lack_one;
         }
       if (names.command_delay && !facts.delay.is_named) tell_errors_with_delay(facts);
-      // a torque that comes before its motion is a command that the drive follows late: no fault of a channel. One that
-      // comes after it is no physics, whatever else is named beside it
-      bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
+      // a torque that comes after its motion is no physics, whatever else is named beside it
       bool const comes_after = facts.delay.is_named && facts.delay.late_s > 0.0;
       bool const all_are = std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
-      of.all_on_channel = comes_after || (!follows_command && all_are);
+      of.all_on_channel = comes_after || all_are;
       of.has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
                                  [](NamedEffect const& one) { return !one.equivalent.empty(); });
     }
@@ -221,13 +213,6 @@ class JointWork {
     bool const predicts = facts.final.validation == facts.final.validation;
     (predicts ? joint_.validation_relerr : joint_.cv_relerr) = facts.delay.judged_without;
     (predicts ? joint_.augmented_validation_relerr : joint_.augmented_cv_relerr) = facts.final.judged();
-  }
-
-  void tell_parameters(std::vector<ParameterEstimate>& into, FittedModel const& by,
-                       std::vector<FittedNumber> const& numbers) const {
-    auto const owners = by.model->column_owners();
-    for (std::size_t k = 0; k < owners.size(); ++k)
-      into.push_back(estimate(owners[k].name, owners[k].unit, numbers[k]));
   }
 
   void tell_candidates(DecisionFacts const& facts) {
@@ -299,78 +284,14 @@ class JointWork {
   }
 
   void tell_effects(JointDecision const& decision) {
-    JointModel const& model = *decision.final.model;
-    for (std::size_t k = 0; k < model.regressor().size(); ++k) {
-      auto const& owner = model.regressor().column_owners()[k];
-      joint_.augmented.push_back(estimate(owner.name, owner.unit, decision.facts.parameters[k]));
-    }
-    FrictionSign const sign = model.reference().scales.friction_sign();
-    joint_.effect_levels = {sign.forward, sign.backward, model.reference().scales.inertia};
-    MismatchRows const rows = mismatch_rows(decision.final, decision.final_replicates);
-    for (std::size_t i = 0; i < decision.facts.accepted.size(); ++i) tell_effect(decision, rows, i);
-    if (decision.facts.delay.is_named) tell_delay(decision.facts.delay);
+    auto const scales = decision.final.model->reference().scales;
+    FrictionSign const sign = scales.friction_sign();
+    joint_.effect_levels = {sign.forward, sign.backward, scales.inertia};
+    EffectNames names = names_of_scan(decision);
+    joint_.effects = std::move(names.effects);
+    joint_.augmented = std::move(names.parameters);
     tell_in_recorded_unit(joint_);
     for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
-  }
-
-  // waves of one kind are one name, their parameters numbered
-  void tell_effect(JointDecision const& decision, MismatchRows const& rows, std::size_t i) {
-    EffectFacts const& facts = decision.facts.accepted[i];
-    auto const same = std::find_if(joint_.effects.begin(), joint_.effects.end(),
-                                   [&](NamedEffect const& one) { return one.name == facts.effect->name(); });
-    bool const is_new = same == joint_.effects.end();
-    if (is_new) {
-      NamedEffect named = named_after(*facts.effect);
-      EffectAccount account = account_of(decision, rows, i);
-      named.p = named.q = facts.p;
-      named.z = std::sqrt(facts.gain);
-      named.region = account.region;
-      named.places = std::move(account.places);
-      named.curve = std::move(account.curve);
-      named.rms = account.rms;
-      named.peak = account.peak;
-      joint_.effects.push_back(std::move(named));
-    }
-    NamedEffect& named = is_new ? joint_.effects.back() : *same;
-    for (auto const* rival : facts.rivals)
-      if (std::find(named.equivalent.begin(), named.equivalent.end(), rival->name()) == named.equivalent.end())
-        named.equivalent.push_back(rival->name());
-    std::size_t& count = waves_[facts.effect];
-    for (auto& parameter : parameters_of(decision, i, ++count)) {
-      named.parameters.push_back(parameter);
-      joint_.augmented.push_back(std::move(parameter));
-    }
-  }
-
-  std::vector<ParameterEstimate> parameters_of(JointDecision const& decision, std::size_t i, std::size_t number) const {
-    JointModel const& model = *decision.final.model;
-    auto const& numbers = decision.facts.parameters;
-    EffectFacts const& facts = decision.facts.accepted[i];
-    std::size_t shape_at = model.size();
-    for (std::size_t before = 0; before < i; ++before) shape_at += model.effects()[before].shape.size();
-    std::vector<ParameterEstimate> estimates;
-    auto const& parameters = facts.effect->parameters();
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      std::size_t const at = parameters[k].is_shape ? shape_at++ : model.first_parameter(i) + k;
-      FittedNumber const known =
-          at < numbers.size() ? numbers[at] : FittedNumber{facts.shape[k - facts.effect->n_linear()], unknown};
-      std::string const name = parameters[k].name + (number > 1 ? "_" + std::to_string(number) : "");
-      estimates.push_back(estimate(name, parameters[k].unit_for(model.regressor().joint()), known));
-    }
-    return estimates;
-  }
-
-  void tell_delay(DelayFacts const& delay) {
-    auto const timing = std::find_if(effect_choices().begin(), effect_choices().end(),
-                                     [](Effect const* one) { return one->is_torque_timing(); });
-    if (timing == effect_choices().end()) return;
-    NamedEffect named = named_after(**timing);
-    named.p = named.q = least_p(joint_.replicates);
-    named.z = std::sqrt(delay.gain);
-    named.rms = delay.size * torque_rms_;
-    named.parameters.push_back(estimate(named.name, "s", {delay.late_s, delay.deviation_s}));
-    joint_.augmented.push_back(named.parameters.front());
-    joint_.effects.push_back(std::move(named));
   }
 
   DiagnosisInput const& input_;
@@ -379,8 +300,6 @@ class JointWork {
   FirstLook first_look_;
   Diagnosis diagnosis_{};
   JointDiagnosis joint_{};
-  std::map<Effect const*, std::size_t> waves_{};  // told so far, of each effect
-  double torque_rms_ = 0.0;
 };
 
 }  // namespace
