@@ -96,7 +96,8 @@ std::string validation_is_other_sentence(JointDiagnosis const& joint) {
     if (!is_other_kind(validation, train, floor)) return "";
   }
   return fmt::format(
-      "The validation recording holds something that the training recording does not show: error {} there, {} here.",
+      "The validation recording holds something that the training recording does not show, or its motion asks for "
+      "numbers that training does not determine: error {} there, {} here.",
       percent_text(validation), percent_text(train));
 }
 

@@ -26,7 +26,8 @@ std::string gain_sentence(JointDiagnosis const& joint);
 
 // A validation error beyond three times and three points above both the error in training and the floor of the
 // validation recording, before and after: "The validation recording holds something that the training recording does
-// not show: relerr 18.4 % there, 0.82 % here."; "" otherwise
+// not show, or its motion asks for numbers that training does not determine: error 18.4 % there, 0.82 % here."; ""
+// otherwise
 std::string validation_is_other_sentence(JointDiagnosis const& joint);
 
 // where nothing is named but a fault of the recording: a clause. The model is called complete only where the validation

@@ -90,8 +90,8 @@ TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
 
 TEST(ReasonSentence, SaysWhateverTheVerdictThatTheValidationRecordingIsOfAnotherKind) {
   char const* said =
-      "The validation recording holds something that the training recording does not show: error 18.4 % "
-      "there, 0.82 % here.";
+      "The validation recording holds something that the training recording does not show, or its motion asks for "
+      "numbers that training does not determine: error 18.4 % there, 0.82 % here.";
   for (auto diagnosis : {example::invented_diagnosis(), example::invented_none(), example::invented_unexplained(),
                          example::invented_data_fault()}) {
     EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
