@@ -24,6 +24,11 @@ double parallel_cutoff_of(FilterOptions const& options) {
   return options.parallel_cutoff_hz > 0 ? options.parallel_cutoff_hz : 0.4 * options.decimate_to_hz;
 }
 
+double torque_band_of(FilterOptions const& options, double rate_hz) {
+  double const cutoff_hz = parallel_cutoff_of(options);
+  return cutoff_hz > 0.0 ? cutoff_hz : 0.4 * rate_hz;
+}
+
 void check_cutoff(char const* key, double cutoff_hz, double rate_hz, Section const& section) {
   validate(2 * cutoff_hz < rate_hz, [&] {
     auto const* where = 2 * cutoff_hz > rate_hz ? "above" : "at";

@@ -16,6 +16,8 @@ inline constexpr double highest_share_of_rate = 1.0 / 5;
 
 // parallel_cutoff_hz as written, or 0.4 * decimate_to_hz, or 0 for none
 double parallel_cutoff_of(FilterOptions const& options);
+// where the torque's band ends: without a parallel filter a little below half the rate
+double torque_band_of(FilterOptions const& options, double rate_hz);
 
 void check_cutoff(char const* key, double cutoff_hz, double rate_hz, Section const& section);
 // cut-offs above half the rate at which a slow source renews the channel that they smooth

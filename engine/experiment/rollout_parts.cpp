@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/data/filter_checks.hpp"
 #include "engine/effects/fitted_baseline.hpp"
 #include "engine/experiment/job_sections.hpp"
 #include "engine/experiment/servo_job.hpp"
@@ -220,9 +221,10 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
   Recording const& first = rollout.train.recordings.front();
   Motion const motion = differentiate(first, filter, filter_section);
   double const encoder_step = rollout.train.tracks.front().encoder_step;
+  double const band_hz = torque_band_of(filter, first.rate_hz);
   auto const scales_with = [&](Eigen::VectorXd const& parameters) {
-    return fitted_baseline(regressor, {parameters.data(), static_cast<std::size_t>(parameters.size())}, motion,
-                           filter.parallel_cutoff_hz, encoder_step)
+    return fitted_baseline(regressor, {parameters.data(), static_cast<std::size_t>(parameters.size())}, motion, band_hz,
+                           encoder_step)
         .scales;
   };
   Eigen::VectorXd start = possible_start(regressor, rollout.least_squares, scales_with(rollout.least_squares));
@@ -233,7 +235,7 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
   std::vector<ModelEffect> effects = rollout.plan.effects;
   if (!effects.empty()) {
     FittedBaseline const baseline = fitted_baseline(regressor, {start.data(), static_cast<std::size_t>(start.size())},
-                                                    motion, filter.parallel_cutoff_hz, encoder_step);
+                                                    motion, band_hz, encoder_step);
     effects = with_first_shapes(std::move(effects), motion, baseline, motion.torque - baseline.model_torque);
   }
   LoopSetting setting = loop_setting(loop, first.rate_hz);
