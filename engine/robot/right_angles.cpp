@@ -36,7 +36,7 @@ Eigen::Matrix3d nearest_right_angles(Eigen::Matrix3d const& rotation) {
 
 Eigen::Matrix3d right_or_as_written(Eigen::Matrix3d const& rotation, std::string const& whose,
                                     std::vector<std::string>& remarks) {
-  Eigen::Matrix3d const right = nearest_right_angles(rotation);
+  Eigen::Matrix3d right = nearest_right_angles(rotation);
   double const change = (rotation - right).cwiseAbs().maxCoeff();
   if (change > rounding_of_an_angle)
     remarks.push_back(

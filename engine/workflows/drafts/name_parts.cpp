@@ -122,7 +122,7 @@ class PartsBuilder {
   }
 
   // `name`: "" where it gets one at the end
-  void add_quantity(std::string name, bool is_number, std::string const& written,
+  void add_quantity(std::string const& name, bool is_number, std::string const& written,
                     std::vector<std::string> const& values) {
     bool const is_new = name.empty() || used_.insert(name).second;
     std::string const id = std::to_string(made_.quantities.size());
