@@ -14,8 +14,18 @@ namespace {
 
 LoopSubject const command_delay{nullptr, LoopKey::command_delay_s};
 
-// of a kept move: whether it tells an effect
-using Tells = bool (KeptMove::*)(LoopSubject const&) const;
+// of a kept move: whether it tells an effect of the scan
+using Tells = bool (*)(KeptMove const&, EffectFacts const&);
+
+bool is_it(KeptMove const& move, EffectFacts const& facts) { return move.is({facts.effect}); }
+bool may_be_it(KeptMove const& move, EffectFacts const& facts) { return move.may_be({facts.effect}); }
+
+// the rows tell it from the move, which simulations cannot
+bool stands_for_it(KeptMove const& move, EffectFacts const& facts) {
+  bool const rows_cannot =
+      std::find(facts.rivals.begin(), facts.rivals.end(), move.subject.effect) != facts.rivals.end();
+  return is_it(move, facts) || (may_be_it(move, facts) && !rows_cannot);
+}
 
 // which effects of the scan a kept move tells
 std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop, Tells tells) {
@@ -25,7 +35,7 @@ std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop,
   for (auto const& facts : scan.accepted) {
     LoopSubject const subject{facts.effect};
     bool const is_told =
-        std::any_of(loop.kept.begin(), loop.kept.end(), [&](auto const& move) { return (move.*tells)(subject); });
+        std::any_of(loop.kept.begin(), loop.kept.end(), [&](auto const& move) { return tells(move, facts); });
     // other recordings say nothing of a clock: only another explanation speaks against it
     bool const runs_by_itself = is_clock_bound(*facts.effect) && !has_command && !loop.is_chance(subject);
     told.push_back(is_told || (runs_by_itself && !loop.may_be_kept(subject)));
@@ -33,12 +43,14 @@ std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop,
   return told;
 }
 
-// kept moves that are no effect of the scan
-std::vector<KeptMove> further_moves(DecisionFacts const& scan, LoopFacts const& loop) {
+bool all_told(std::vector<bool> const& told) { return std::find(told.begin(), told.end(), false) == told.end(); }
+
+// kept moves that tell no effect of the scan
+std::vector<KeptMove> further_moves(DecisionFacts const& scan, LoopFacts const& loop, Tells tells) {
   std::vector<KeptMove> further;
   for (auto const& move : loop.kept) {
     bool const is_told = std::any_of(scan.accepted.begin(), scan.accepted.end(),
-                                     [&](EffectFacts const& facts) { return move.is({facts.effect}); });
+                                     [&](EffectFacts const& facts) { return tells(move, facts); });
     if (!is_told && !(move.subject == command_delay)) further.push_back(move);
   }
   return further;
@@ -52,13 +64,14 @@ StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop) {
   names.effects.assign(scan.accepted.size(), true);
   names.has_delay = scan.delay.is_named;
   if (!names.by_loop) return names;
-  auto const falls = [](std::vector<bool> const& told) {
-    return std::find(told.begin(), told.end(), false) != told.end();
-  };
-  names.drops_effects = falls(told_effects(scan, loop, &KeptMove::may_be));
-  names.effects = told_effects(scan, loop, &KeptMove::is);
-  names.added = further_moves(scan, loop);
-  names.of_other_model = falls(names.effects) || !names.added.empty();
+  names.effects = told_effects(scan, loop, stands_for_it);
+  names.added = further_moves(scan, loop, stands_for_it);
+  names.drops_effects = !all_told(told_effects(scan, loop, may_be_it));
+  names.of_other_model = !all_told(names.effects) || !names.added.empty();
+  if (names.of_other_model) {
+    names.effects = told_effects(scan, loop, is_it);
+    names.added = further_moves(scan, loop, is_it);
+  }
   auto const delay = std::find_if(loop.kept.begin(), loop.kept.end(),
                                   [](KeptMove const& move) { return move.subject == command_delay; });
   if (delay != loop.kept.end()) names.command_delay = delay->numbers.front();

@@ -2,7 +2,8 @@
 // Which names stand after the simulations in the loop.
 //
 // Decides    where simulations do not decide, the scan's names stand. Where they do: those that the ladder kept; an
-//            effect of the scan that they cannot tell from one they kept stands in its class
+//            effect of the scan that they cannot tell from one they kept stands for it, or, where the rows cannot tell
+//            the two either, in its class
 // Clock      other recordings do not judge an effect of an instant or a clock: one that was not kept stands all the
 //            same, unless simulations call it chance, or kept something on the command side, which it may have stood
 //            for
