@@ -14,18 +14,8 @@ namespace {
 
 LoopSubject const command_delay{nullptr, LoopKey::command_delay_s};
 
-// of a kept move: whether it tells an effect of the scan
-using Tells = bool (*)(KeptMove const&, EffectFacts const&);
-
-bool is_it(KeptMove const& move, EffectFacts const& facts) { return move.is({facts.effect}); }
-bool may_be_it(KeptMove const& move, EffectFacts const& facts) { return move.may_be({facts.effect}); }
-
-// the rows tell it from the move, which simulations cannot
-bool stands_for_it(KeptMove const& move, EffectFacts const& facts) {
-  bool const rows_cannot =
-      std::find(facts.rivals.begin(), facts.rivals.end(), move.subject.effect) != facts.rivals.end();
-  return is_it(move, facts) || (may_be_it(move, facts) && !rows_cannot);
-}
+// of a kept move: whether it tells an effect
+using Tells = bool (KeptMove::*)(LoopSubject const&) const;
 
 // which effects of the scan a kept move tells
 std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop, Tells tells) {
@@ -35,7 +25,7 @@ std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop,
   for (auto const& facts : scan.accepted) {
     LoopSubject const subject{facts.effect};
     bool const is_told =
-        std::any_of(loop.kept.begin(), loop.kept.end(), [&](auto const& move) { return tells(move, facts); });
+        std::any_of(loop.kept.begin(), loop.kept.end(), [&](auto const& move) { return (move.*tells)(subject); });
     // other recordings say nothing of a clock: only another explanation speaks against it
     bool const runs_by_itself = is_clock_bound(*facts.effect) && !has_command && !loop.is_chance(subject);
     told.push_back(is_told || (runs_by_itself && !loop.may_be_kept(subject)));
@@ -43,14 +33,12 @@ std::vector<bool> told_effects(DecisionFacts const& scan, LoopFacts const& loop,
   return told;
 }
 
-bool all_told(std::vector<bool> const& told) { return std::find(told.begin(), told.end(), false) == told.end(); }
-
 // kept moves that tell no effect of the scan
 std::vector<KeptMove> further_moves(DecisionFacts const& scan, LoopFacts const& loop, Tells tells) {
   std::vector<KeptMove> further;
   for (auto const& move : loop.kept) {
     bool const is_told = std::any_of(scan.accepted.begin(), scan.accepted.end(),
-                                     [&](EffectFacts const& facts) { return tells(move, facts); });
+                                     [&](EffectFacts const& facts) { return (move.*tells)({facts.effect}); });
     if (!is_told && !(move.subject == command_delay)) further.push_back(move);
   }
   return further;
@@ -64,13 +52,13 @@ StandingNames standing_names(DecisionFacts const& scan, LoopFacts const& loop) {
   names.effects.assign(scan.accepted.size(), true);
   names.has_delay = scan.delay.is_named;
   if (!names.by_loop) return names;
-  names.effects = told_effects(scan, loop, stands_for_it);
-  names.added = further_moves(scan, loop, stands_for_it);
-  names.drops_effects = !all_told(told_effects(scan, loop, may_be_it));
-  names.of_other_model = !all_told(names.effects) || !names.added.empty();
+  names.effects = told_effects(scan, loop, &KeptMove::may_be);
+  names.added = further_moves(scan, loop, &KeptMove::may_be);
+  names.drops_effects = std::find(names.effects.begin(), names.effects.end(), false) != names.effects.end();
+  names.of_other_model = names.drops_effects || !names.added.empty();
   if (names.of_other_model) {
-    names.effects = told_effects(scan, loop, is_it);
-    names.added = further_moves(scan, loop, is_it);
+    names.effects = told_effects(scan, loop, &KeptMove::is);
+    names.added = further_moves(scan, loop, &KeptMove::is);
   }
   auto const delay = std::find_if(loop.kept.begin(), loop.kept.end(),
                                   [](KeptMove const& move) { return move.subject == command_delay; });
