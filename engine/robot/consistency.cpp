@@ -240,7 +240,7 @@ ConsistentParameters consistent_parameters(SerialChain const& chain, BaseParamet
 
 std::string prior_fault(LinkInertia const& link) {
   constexpr double rounding = 1e-12;
-  std::string const fault = body_fault(link);
+  std::string fault = body_fault(link);
   if (!fault.empty()) return fault;
   VectorXd const sizes = symmetric_eigenvalues(pseudo_inertia(link.vector()));
   return sizes.minCoeff() > rounding * sizes.maxCoeff() ? "" : "it has no thickness";
