@@ -26,12 +26,6 @@ bool keeps_little(double before, double after, double floor) {
   return promised >= quarter * before * before && before * before - after * after < quarter * promised;
 }
 
-// a torque channel before the motion
-bool comes_early(NamedEffect const& effect) {
-  return effect.acts_on == word(ActsOn::recorded_torque) && !effect.parameters.empty() &&
-         effect.parameters[0].unit == "s" && effect.parameters[0].value < 0.0;
-}
-
 constexpr double usual_p = 0.05;
 
 std::string omnibus_text(JointDiagnosis const& joint) {
@@ -102,7 +96,7 @@ std::string validation_is_other_sentence(JointDiagnosis const& joint) {
 }
 
 std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete) {
-  std::string const mend = std::any_of(joint.effects.begin(), joint.effects.end(), comes_early)
+  std::string const mend = std::any_of(joint.effects.begin(), joint.effects.end(), comes_before_motion)
                                ? "correct the channel, or record the torque that the drive gives instead of its command"
                                : "correct the channel, or record again";
   if (!is_complete) return mend + "; what else is missing shows then";

@@ -38,7 +38,7 @@ std::string way_out_of_a_fault(JointDiagnosis const& joint, bool is_complete);
 // that is within the replicates' spread while no effect stands out
 std::string likeness_sentence(JointDiagnosis const& joint);
 
-// whether replicates seldom leave as much as the joint does: with no name, it was too little for one
+// whether fewer than 5 % of replicates leave as much as the recording
 bool is_unlike_replicates(JointDiagnosis const& joint);
 
 // Of a joint with an open gate whose map shows nothing: what it is that replicates do not have, the whole or what one

@@ -16,7 +16,7 @@ ParameterEstimate estimate(std::string name, std::string unit, FittedNumber cons
   return {std::move(name), std::move(unit), number.value, number.value - width, number.value + width};
 }
 
-// wave: so many of its effect there are before it, and it
+// wave: 1 for the first of its effect, 2 for the second
 std::vector<ParameterEstimate> parameters_of(JointDecision const& decision, std::size_t i, std::ptrdiff_t wave) {
   JointModel const& model = *decision.final.model;
   auto const& numbers = decision.facts.parameters;

@@ -75,12 +75,14 @@ NamedEffect named_after(Effect const& effect) {
   return named;
 }
 
+bool comes_before_motion(NamedEffect const& effect) {
+  Effect const* known = find_effect(effect.name);
+  return known && known->is_torque_timing() && !effect.parameters.empty() && effect.parameters[0].value < 0.0;
+}
+
 bool is_fault(NamedEffect const& effect) {
   bool const acts_on_a_channel = !effect.acts_on.empty() && effect.acts_on != word(ActsOn::joint);
-  Effect const* own = find_effect(effect.name);
-  bool const is_early =
-      own && own->is_torque_timing() && !effect.parameters.empty() && effect.parameters[0].value < 0.0;
-  return acts_on_a_channel && !is_early &&
+  return acts_on_a_channel && !comes_before_motion(effect) &&
          std::none_of(effect.equivalent.begin(), effect.equivalent.end(), [](auto const& name) {
            Effect const* known = find_effect(name);
            return known && known->acts_on() == ActsOn::joint;

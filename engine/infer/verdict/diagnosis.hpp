@@ -136,6 +136,9 @@ class Effect;
 // what the catalogue says of it, nothing found yet
 NamedEffect named_after(Effect const& effect);
 
+// a delay of the torque that is negative
+bool comes_before_motion(NamedEffect const& effect);
+
 // Of a recorded channel, not physics of the joint; nor may any effect that cannot be excluded be physics. A torque that
 // comes before its motion may be a command that the drive follows late
 bool is_fault(NamedEffect const& effect);
