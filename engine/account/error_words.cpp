@@ -12,18 +12,9 @@ namespace torquescope {
 namespace {
 
 // of an error in training and validation, by the same model
-bool is_other_kind(double validation, double train, double floor) {
+bool is_other_kind(double validation, double train) {
   constexpr double times = 3.0, points = 0.03;
-  double const expected = std::isfinite(floor) ? std::max(train, floor) : train;
-  return validation > times * expected && validation > expected + points;
-}
-
-// of the energy that a prediction at the floor would take away, where that is a quarter of it or more; the same as of
-// names that are refuted, which may stay where they move the prediction too little to be blamed
-bool keeps_little(double before, double after, double floor) {
-  constexpr double quarter = 0.25;
-  double const promised = before * before - floor * floor;
-  return promised >= quarter * before * before && before * before - after * after < quarter * promised;
+  return validation > times * train && validation > train + points;
 }
 
 constexpr double usual_p = 0.05;
@@ -41,15 +32,6 @@ Candidate const* surest_refused(JointDiagnosis const& joint) {
 }
 
 }  // namespace
-
-std::string floor_words(double relerr, double floor) {
-  if (!std::isfinite(floor)) return "";
-  constexpr double nearly = 1.02;
-  std::string const text = percent_text(floor);
-  if (relerr > nearly * floor) return ", floor " + text;
-  if (relerr >= floor / nearly) return ", at the floor (about " + text + ")";
-  return fmt::format(", at the floor (about {}: what simulated replicates leave on average)", text);
-}
 
 std::string left_out_clause(LeftOut const& left_out) {
   if (!(left_out.time > 0.0) || !std::isfinite(left_out.energy)) return "";
@@ -72,22 +54,16 @@ std::string gain_sentence(JointDiagnosis const& joint) {
                                        percent_text(before), percent_text(after));
   std::string left_out = left_out_clause(validation ? joint.validation_left_out : joint.train_left_out);
   if (!left_out.empty() && !validation) left_out += " in training";
-  return text + floor_words(after, joint.floor_relerr) + (left_out.empty() ? "" : "; " + left_out) + "." +
-         (validation && keeps_little(before, after, joint.floor_relerr)
-              ? " That is less than a quarter of what replicates with these names promise: something else is missing "
-                "there."
-              : "");
+  return text + (left_out.empty() ? "" : "; " + left_out) + ".";
 }
 
 std::string validation_is_other_sentence(JointDiagnosis const& joint) {
-  double const floor = joint.floor_relerr;
-  if (!std::isfinite(joint.validation_relerr) || !is_other_kind(joint.validation_relerr, joint.train_relerr, floor))
-    return "";
+  if (!std::isfinite(joint.validation_relerr) || !is_other_kind(joint.validation_relerr, joint.train_relerr)) return "";
   double validation = joint.validation_relerr, train = joint.train_relerr;
   if (std::isfinite(joint.augmented_validation_relerr)) {
     validation = joint.augmented_validation_relerr;
     train = joint.augmented_train_relerr;
-    if (!is_other_kind(validation, train, floor)) return "";
+    if (!is_other_kind(validation, train)) return "";
   }
   return fmt::format(
       "The validation recording holds something that the training recording does not show, or its motion asks for "

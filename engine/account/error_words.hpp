@@ -1,6 +1,6 @@
 #pragma once
-// What the errors of a diagnosis say, as sentences: what naming brings, how near the floor, whether validation
-// is of another kind, and whether the residual is like that of replicates.
+// What the errors of a diagnosis say, as sentences: what naming brings, whether validation is of another kind, and
+// whether the residual is like that of replicates.
 //
 // Unknown    a sentence whose numbers were not measured is ""
 // Wording    as sentences.hpp
@@ -12,22 +12,16 @@
 
 namespace torquescope {
 
-// ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, a mean over replicates; what is below it has
-// some replicates below it as well, and is told what the floor is; "" where none is known
-std::string floor_words(double relerr, double floor);
-
 // What the mask leaves out, and the error with it: "71 % of the time with 98 % of the residual's energy, near reversals
 // and rests, is left out of that; with it the relerr is 38 % to 46 %"; "" where nothing is left out or it is not known
 std::string left_out_clause(LeftOut const& left_out);
 
-// "Validation error 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where no validation was recorded. Where the
-// validation error stays far above its floor whatever was named, that is said
+// "Validation error 12.1 % to 6.2 %."; from cross-validation where no validation was recorded
 std::string gain_sentence(JointDiagnosis const& joint);
 
-// A validation error beyond three times and three points above both the error in training and the floor of the
-// validation recording, before and after: "The validation recording holds something that the training recording does
-// not show, or its motion asks for numbers that training does not determine: error 18.4 % there, 0.82 % here."; ""
-// otherwise
+// A validation error beyond three times and three points above the error in training, before and after: "The
+// validation recording holds something that the training recording does not show, or its motion asks for numbers that
+// training does not determine: error 18.4 % there, 0.82 % here."; "" otherwise
 std::string validation_is_other_sentence(JointDiagnosis const& joint);
 
 // where nothing is named but a fault of the recording: a clause. The model is called complete only where the validation

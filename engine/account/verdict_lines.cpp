@@ -232,10 +232,6 @@ std::string rows_phrase(JointDiagnosis const& joint) {
   return shares.empty() ? text : text + ", " + name_list(shares, "and");
 }
 
-void add_noise(std::string& line, double noise) {
-  if (!line.empty() && std::isfinite(noise)) line += ", noise " + percent_text(noise);
-}
-
 }  // namespace
 
 VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joint, Verdict verdict) {
@@ -246,7 +242,6 @@ VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joi
   bool const are_all = joint.rows == ErrorRows::all || (joint.train_left_out.time == 0.0 && all == of_rows);
   if (!all.empty()) lines.errors = "error, all samples: " + all;
   if (!are_all && !of_rows.empty()) lines.rows = fmt::format("error {}: {}", rows_phrase(joint), of_rows);
-  add_noise(lines.rows.empty() ? lines.errors : lines.rows, joint.floor_relerr);
   bool const is_of_arm = diagnosis.joints.size() > 1;
   if (!is_of_arm && !diagnosis.way_out.empty()) lines.remarks.push_back(diagnosis.way_out);
   std::string const of_validation =

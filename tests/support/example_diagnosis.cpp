@@ -229,8 +229,6 @@ JointDiagnosis invented_joint() {
   joint.augmented_train_relerr = 0.0611;
   joint.augmented_validation_relerr = 0.0623;
   joint.augmented_cv_relerr = 0.0617;
-  joint.floor_relerr = 0.0601;
-  joint.train_floor_relerr = 0.0596;
   joint.budget = {0.03, 0.67, 0.05, 0.25};
   joint.unexplained = {{{"load", 0.95, 1.29, "N m"}, 0.09}};
   joint.excitation = {{"triangular strokes of 0.2, 1 and 5 mrad", {"stribeck", "presliding"}}};

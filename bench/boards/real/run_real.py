@@ -97,8 +97,8 @@ class Runs:
             "names": [{"name": one["name"], "equivalent": one.get("equivalent") or []}
                       for one in grading.names_of(said)],
             **{key: getattr(said, key)
-               for key in ("rows", "before", "after", "floor", "time_left_out", "energy_left_out", "explained",
-                           "explained_low", "explained_high")},
+               for key in ("rows", "before", "after", "time_left_out", "energy_left_out", "explained", "explained_low",
+                           "explained_high")},
             "grade": grade,
             "why": why,
             "truth": answer.truth if answer else "",
@@ -142,14 +142,14 @@ def line(row):
     why = f" ({row['why']})" if row["why"] else ""
     rows = {"unseen": "unseen", "cross-validated": "CV"}.get(row["rows"], "-")
     return (f"{row['case']:22} {(row['grade'] or '-'):10} {row['verdict']:12} {rows:6} {percent(row['before']):>7} "
-            f"{percent(row['after']):>7} {percent(row['floor']):>7} {seen:>13} {explained(row):>14}  "
+            f"{percent(row['after']):>7} {seen:>13} {explained(row):>14}  "
             f"{row['seconds']:6.0f}  {names or '-'}{why}")
 
 
 def head():
-    return (f"{'recording':22} {'grade':10} {'verdict':12} {'rows':6} {'before':>7} {'after':>7} {'floor':>7} "
+    return (f"{'recording':22} {'grade':10} {'verdict':12} {'rows':6} {'before':>7} {'after':>7} "
             f"{'looked at':>13} {'explained':>14}  {'s':>6}  names\n"
-            f"{'':53} {'% of the torque':>23} {'% rows/energy':>13} {'% of missing':>14}")
+            f"{'':53} {'% of the torque':>15} {'% rows/energy':>13} {'% of missing':>14}")
 
 
 def cases_of(folder, known, only):

@@ -172,7 +172,7 @@ def row(folder, forgive=None):
     try:
         verdict = forgiven(truth, json.loads((folder / "verdict.json").read_text()), forgive)
     except (OSError, ValueError):
-        return truth, "wrong", f"| {folder.name} | {told or 'nothing'} | no answer | wrong | | | | | | {seconds[:5]} |"
+        return truth, "wrong", f"| {folder.name} | {told or 'nothing'} | no answer | wrong | | | | | {seconds[:5]} |"
     mark, why = judge(truth, verdict)
     joint = verdict["joints"][0] if verdict["joints"] else {}
     effects = joint.get("effects", [])
@@ -185,7 +185,7 @@ def row(folder, forgive=None):
              " ".join(f"{100 * e:.1f}" for e in errors if e is not None),
              " ".join(f"{o:.2f}" for o in overlaps if o is not None),
              percent(joint.get("baseline", {}).get("validation_relerr")), percent(after.get("validation_relerr")),
-             percent(after.get("floor_relerr")), f"{float(seconds):.0f}" if seconds else ""]
+             f"{float(seconds):.0f}" if seconds else ""]
     return truth, mark, "| " + " | ".join(cells) + " |"
 
 
@@ -197,11 +197,8 @@ def main(words):
     folder = Path(words[0])
     cases = words[1:] or sorted(p.parent.name for p in folder.glob("*/seconds"))
     counts = {}
-    print(
-        "| case | concealed | verdict | score | parameter error % | place IoU | unseen before % | after % | floor % | "
-        "s |"
-    )
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    print("| case | concealed | verdict | score | parameter error % | place IoU | unseen before % | after % | s |")
+    print("|---|---|---|---|---|---|---|---|---|")
     for case in cases:
         truth, mark, line = row(folder / case, forgive)
         print(line)

@@ -209,8 +209,6 @@ struct JointDiagnosis {
   EffectLevels effect_levels{};
   double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
   double validation_torque_energy = unknown;  // of the rows that validation_relerr is of
-  double floor_relerr = unknown;              // what a complete model would leave, validation recording (or training)
-  double train_floor_relerr = unknown;
   LeftOut train_left_out{}, validation_left_out{};
   HeldOutTest held_out{};
   // of the mismatch's energy on held-out rows, what the accepted effects explain, with a 95 % interval

@@ -179,7 +179,6 @@ Json joint_json(JointDiagnosis const& joint) {
         {{"train_relerr", json_number(joint.augmented_train_relerr)},
          {"validation_relerr", json_number(joint.augmented_validation_relerr)},
          {"cv_relerr", json_number(joint.augmented_cv_relerr)},
-         {"floor_relerr", json_number(joint.floor_relerr)},
          {"parameters", json_list(joint.augmented, parameter_json)}}},
        {"left_out",
         {{"train", left_out_json(joint.train_left_out)}, {"validation", left_out_json(joint.validation_left_out)}}},

@@ -168,8 +168,6 @@ void read_joint_attributes(StoredObjects const& in, std::string const& group, Jo
   joint.augmented_train_relerr = in.number(group, "augmented_train_relerr");
   joint.augmented_validation_relerr = in.number(group, "augmented_validation_relerr");
   joint.augmented_cv_relerr = in.number(group, "augmented_cv_relerr");
-  joint.floor_relerr = in.number(group, "floor_relerr");
-  joint.train_floor_relerr = in.number(group, "train_floor_relerr");
   auto const left_out = [&](std::string const& name) -> LeftOut {
     return {in.number(group, name + "_left_out_time"), in.number(group, name + "_left_out_energy"),
             in.number(group, name + "_relerr_all_rows"), in.number(group, "augmented_" + name + "_relerr_all_rows"),

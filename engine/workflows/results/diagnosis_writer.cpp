@@ -204,8 +204,6 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "augmented_train_relerr", joint.augmented_train_relerr);
   writer.attribute(group, "augmented_validation_relerr", joint.augmented_validation_relerr);
   writer.attribute(group, "augmented_cv_relerr", joint.augmented_cv_relerr);
-  writer.attribute(group, "floor_relerr", joint.floor_relerr);
-  writer.attribute(group, "train_floor_relerr", joint.train_floor_relerr);
   auto const write_left_out = [&](std::string const& name, LeftOut const& left_out) {
     writer.attribute(group, name + "_left_out_time", left_out.time);
     writer.attribute(group, name + "_left_out_energy", left_out.energy);

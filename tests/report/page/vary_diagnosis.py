@@ -8,8 +8,8 @@ import numpy as np
 # a comment that opens, and a script inside: a browser that takes them for its own looks for the end of both
 HOSTILE_WORDS = "<!--<script>alert(1)</script> $unmatched"
 
-NOT_MEASURED = ("validation_relerr", "augmented_validation_relerr", "cv_relerr", "augmented_cv_relerr", "floor_relerr",
-                "train_floor_relerr", "torque_noise", "disturbance")
+NOT_MEASURED = ("validation_relerr", "augmented_validation_relerr", "cv_relerr", "augmented_cv_relerr", "torque_noise",
+                "disturbance")
 
 
 def replace(group, name, values):

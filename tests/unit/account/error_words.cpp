@@ -1,5 +1,5 @@
-// What is said of errors never contradicts them: no likeness beside a small p, no gap below the floor, no silence where
-// the validation recording is of another kind.
+// What is said of errors never contradicts them: no likeness beside a small p, no silence where the validation
+// recording is of another kind.
 
 #include "engine/account/error_words.hpp"
 
@@ -29,24 +29,6 @@ TEST(ReasonSentence, OfNothingMissingDoesNotCallAResidualAlikeThatDiffers) {
             "The residual of joint 1 looks like that of 200 simulated replicates (p = 0.20).");
 }
 
-// a quarter of the energy between the error before and the floor: 2.7^2 - (2.7^2 - 1.1^2) / 4 = 2.40^2
-TEST(GainSentence, SaysWhereANameDoesNotBringTheValidationErrorNearItsFloor) {
-  JointDiagnosis joint = example::invented_diagnosis().joints[0];
-  joint.validation_relerr = 0.027;
-  joint.floor_relerr = 0.011;
-  joint.augmented_validation_relerr = 0.0245;
-  EXPECT_EQ(
-      gain_sentence(joint),
-      "Validation error 2.7 % to 2.5 %, floor 1.1 %. That is less than a quarter of what replicates with these names "
-      "promise: something else is missing there.");
-  joint.augmented_validation_relerr = 0.0240;
-  EXPECT_EQ(gain_sentence(joint), "Validation error 2.7 % to 2.4 %, floor 1.1 %.");
-  // little was promised: 2.7^2 - 2.4^2 is 21 % of 2.7^2
-  joint.floor_relerr = 0.024;
-  joint.augmented_validation_relerr = 0.027;
-  EXPECT_THAT(gain_sentence(joint), Not(HasSubstr("something else")));
-}
-
 // one candidate's certainty opened the gate, and then it was refused
 TEST(ReasonSentence, OfSomethingElseInAResidualThatIsNoLargerNamesWhatWasRefused) {
   Diagnosis diagnosis = example::invented_unexplained();
@@ -68,26 +50,6 @@ TEST(ReasonSentence, OfSomethingElseInAResidualThatIsNoLargerNamesWhatWasRefused
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("is not what simulated replicates have (p = 1.0), but"));
 }
 
-TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
-  Diagnosis diagnosis = example::invented_diagnosis();
-  JointDiagnosis& joint = diagnosis.joints[0];
-  joint.augmented_validation_relerr = 0.041;
-  joint.floor_relerr = 0.049;
-  EXPECT_THAT(
-      reason_sentence(diagnosis),
-      HasSubstr(
-          "Validation error 12.1 % to 4.1 %, at the floor (about 4.9 %: what simulated replicates leave on average)."));
-  joint.augmented_validation_relerr = 0.0485;
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
-  joint.augmented_validation_relerr = 0.0495;
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
-  joint.augmented_validation_relerr = 0.052;
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Validation error 12.1 % to 5.2 %, floor 4.9 %."));
-  // where the replicates are louder than the recording there is none
-  joint.floor_relerr = unknown;
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Validation error 12.1 % to 5.2 %."));
-}
-
 TEST(ReasonSentence, SaysWhateverTheVerdictThatTheValidationRecordingIsOfAnotherKind) {
   char const* said =
       "The validation recording holds something that the training recording does not show, or its motion asks for "
@@ -101,18 +63,13 @@ TEST(ReasonSentence, SaysWhateverTheVerdictThatTheValidationRecordingIsOfAnother
     joint.validation_relerr = 0.185;
     joint.augmented_train_relerr = 0.0082;
     joint.augmented_validation_relerr = 0.184;
-    joint.floor_relerr = 0.01;
     EXPECT_THAT(reason_sentence(diagnosis), HasSubstr(said));
     EXPECT_THAT(way_out_of_a_fault(joint, true), Not(HasSubstr("needs nothing more")));
     EXPECT_THAT(way_out_of_a_fault(joint, false), Not(HasSubstr("needs nothing more")));
-    // what naming mends was missing in training as well; and replicates that leave as much expect no less
+    // what naming mends was missing in training as well
     joint.augmented_validation_relerr = 0.02;
     EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
-    joint.augmented_validation_relerr = 0.184;
-    joint.floor_relerr = 0.17;
-    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
     // names that were withdrawn have no errors
-    joint.floor_relerr = 0.01;
     joint.augmented_train_relerr = joint.augmented_validation_relerr = unknown;
     EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("error 18.5 % there, 0.91 % here."));
   }
@@ -135,7 +92,7 @@ TEST(ReasonSentence, TellsWhatIsLeftOutBesideTheErrors) {
   Diagnosis diagnosis = example::invented_diagnosis();
   diagnosis.joints[0].validation_left_out = {0.12, 0.3, 0.2, 0.15};
   EXPECT_THAT(reason_sentence(diagnosis),
-              HasSubstr("floor 6.0 %; 12.0 % of the time with 30.0 % of the residual's energy"));
+              HasSubstr("12.1 % to 6.2 %; 12.0 % of the time with 30.0 % of the residual's energy"));
 }
 
 // nothing is missing where it was looked, which is not everywhere

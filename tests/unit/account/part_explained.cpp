@@ -44,7 +44,7 @@ TEST(ReasonSentence, OfAPartNamesItsEffectsAndTheirGainBehindTheShare) {
             "out between 0.40 and 0.90 rad (21.0 % of the residual's energy). Joint 1 loses 0.35 N m extra below 0.12 "
             "rad/s in both directions: Stribeck friction (p < 0.005; presliding cannot be excluded). Joint 1 deviates "
             "by up to 0.060 N m from the model around 12 waves per turn: cogging torque of the motor (p < 0.005). "
-            "Validation error 12.1 % to 7.8 %, floor 6.0 %.");
+            "Validation error 12.1 % to 7.8 %.");
   // the share of the training residual would stand beside that of held-out rows
   EXPECT_THAT(reason, Not(HasSubstr("stays unexplained")));
 }

@@ -48,7 +48,7 @@ TEST(ReasonSentence, IsTheOneOfTheSpecification) {
   EXPECT_EQ(
       reason_sentence(diagnosis),
       "Joint 1 loses 0.35 N m extra below 0.12 rad/s in both directions: Stribeck friction (p < 0.005; presliding "
-      "cannot be excluded). Validation error 12.1 % to 6.2 %, floor 6.0 %.");
+      "cannot be excluded). Validation error 12.1 % to 6.2 %.");
 }
 
 TEST(ReasonSentence, CallsTheJointByItsColumn) {

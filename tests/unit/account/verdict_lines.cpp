@@ -82,14 +82,13 @@ TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
   joint.rows = ErrorRows::one_way;
   joint.validation_relerr = 0.08;
   joint.augmented_validation_relerr = 0.02;
-  joint.floor_relerr = 0.015;
   joint.train_left_out = {0.25, 0.8, 0.2, 0.18};
   joint.validation_left_out = {0.35, 0.8, 0.13, 0.1};
   VerdictLines const lines = verdict_lines({}, joint, Verdict::named);
   EXPECT_EQ(lines.errors, "error, all samples: training 20.0 % -> 18.0 %, validation 13.0 % -> 10.0 %");
   EXPECT_EQ(lines.rows,
             "error on rows that move one way, 75.0 % of training and 65.0 % of validation: "
-            "training 5.0 % -> 1.0 %, validation 8.0 % -> 2.0 %, noise 1.5 %");
+            "training 5.0 % -> 1.0 %, validation 8.0 % -> 2.0 %");
   joint.rows = ErrorRows::in_motion;
   EXPECT_THAT(verdict_lines({}, joint, Verdict::named).rows, StartsWith("error on rows in motion, 75.0 %"));
 }

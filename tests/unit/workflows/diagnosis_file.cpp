@@ -70,7 +70,6 @@ TEST(DiagnosisFile, GivesBackWhatOnlyThePageTells) {
   expect_same_map(a, b);
   EXPECT_EQ(a.cv_relerr, b.cv_relerr);
   EXPECT_EQ(a.augmented_cv_relerr, b.augmented_cv_relerr);
-  EXPECT_EQ(a.train_floor_relerr, b.train_floor_relerr);
   EXPECT_EQ(a.nuisances, b.nuisances);
   EXPECT_EQ(a.rows, b.rows);
   EXPECT_EQ(a.loop_source, b.loop_source);

@@ -32,7 +32,7 @@ Json const pattern = Json::parse(R"({
                  "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "sentence": ""}],
     "candidates": [{"name": "", "family": "", "decision": "", "reason": "", "z": 0, "p": 0,
                     "p_is_bound": false, "p_extrapolated": 0, "q": 0, "gain": 0, "cv_gain": 0}],
-    "augmented": {"train_relerr": 0, "validation_relerr": 0, "cv_relerr": 0, "floor_relerr": 0,
+    "augmented": {"train_relerr": 0, "validation_relerr": 0, "cv_relerr": 0,
                   "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}]},
     "left_out": {"train": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0, "augmented_relerr_all_rows": 0},
                  "validation": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0,

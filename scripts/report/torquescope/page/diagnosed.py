@@ -192,27 +192,6 @@ def twins_as_far(joint):
     return max(round(joint.omnibus_p * (joint.twins + 1)) - 1, 0)
 
 
-def has_floor(joint):
-    return math.isfinite(joint.floor_relerr) or math.isfinite(joint.train_floor_relerr)
-
-
-def share_closed(joint):
-    """Of the error that a complete model would take away in validation (or in training); NaN when there is none."""
-    before, after, floor = validation_errors(joint)
-    if not has_after(joint) or is_at_floor(before, floor) or not before > floor:
-        return math.nan
-    return min(1.0, (before - after) / (before - floor))
-
-
-def is_at_floor(error, floor):
-    """A fiftieth above it is at it, as the verdict's sentence has it: the floor is a mean over replicates."""
-    return error <= 1.02 * floor
-
-
-def is_below_floor(error, floor):
-    return error < floor / 1.02
-
-
 def leaves_out(joint):
     """Whether joint.train_relerr and its kin are of a part of the samples, and the errors of all are known."""
     return joint.rows != "all" and math.isfinite(joint.train_relerr_all_rows)
@@ -232,10 +211,3 @@ def told_errors(joint):
     has = has_after(joint)
     return [(before, after if has else math.nan, f"error {where}, {rows}")
             for (before, after), where in zip(errors, ("in training", "in validation")) if math.isfinite(before)]
-
-
-def validation_errors(joint):
-    """(before, after, floor) on the validation recording, or in training without one."""
-    if math.isfinite(joint.validation_relerr):
-        return joint.validation_relerr, joint.augmented_validation_relerr, joint.floor_relerr
-    return joint.train_relerr, joint.augmented_train_relerr, joint.train_floor_relerr

@@ -45,7 +45,7 @@ def rows(real):
     """[{case, said, grade, tone, why, errors, left_out, truth}] for the template."""
     return [{"case": case["case"], "said": said(case), "grade": case["grade"] or "–",
              "tone": TONES.get(case["grade"], ""), "why": case["why"], "truth": case["truth"],
-             "before": percent(case["before"]), "after": percent(case["after"]), "floor": percent(case["floor"]),
+             "before": percent(case["before"]), "after": percent(case["after"]),
              "of": ROWS.get(case["rows"], case["rows"]),
              "time": looked_at(case["time_left_out"]), "energy": looked_at(case["energy_left_out"]),
              "explained": explained(case),

@@ -107,29 +107,13 @@ def head(study):
 def big_numbers(joint):
     """[(number, unit, caption)]: at most four, without what was not measured."""
     found = [(_before_after(before, after), "", caption) for before, after, caption in diagnosed.told_errors(joint)]
-    before, after, floor = diagnosed.validation_errors(joint)
-    if math.isfinite(floor) and not diagnosed.leaves_out(joint):
-        error = after if diagnosed.has_after(joint) and math.isfinite(after) else before
-        reached = diagnosed.is_at_floor(error, floor)
-        found.append(
-            (f"about {q.percent(floor)}", "", "floor: it is reached")
-            if reached and not diagnosed.is_below_floor(error, floor)
-            else (
-                (f"about {q.percent(floor)}", "", "floor, as replicates have it on average: the error is below")
-                if reached
-                else (q.percent(floor), "", "floor: what a complete model would leave")
-            )
-        )
-    closed = math.nan if diagnosed.leaves_out(joint) else diagnosed.share_closed(joint)
     if math.isfinite(joint.explained_share):
         found.append((q.percent(joint.explained_share), "",
                       f"of what is missing on held-out rows is explained{_interval_words(joint)}"))
-    elif math.isfinite(closed):
-        found.append((q.percent(closed), "", "of the closable gap is closed"))
     as_far = diagnosed.twins_as_far(joint)
     if as_far is not None:
         found.append((q.whole(as_far), f"of {q.whole(joint.twins)}", "simulated replicates look like this"))
-    return found[:4]
+    return found
 
 
 def _before_after(before, after):
@@ -194,25 +178,10 @@ def fit_answer(study, joint):
     nuisances = q.listed(joint.nuisances)
     refitted = f" In the validation recording: {nuisances}." if joint.nuisances else ""
     if not diagnosed.has_after(joint):
-        at = _floor_words(joint.validation_relerr, joint.floor_relerr)
         error = q.percent(joint.validation_relerr)
-        return f"Nothing was put into the model; its validation error is {error}{at}.{refitted}"
-    before, after, floor = diagnosed.validation_errors(joint)
-    to = _floor_words(after, floor)
-    return f"Validation error {q.percent(before)} before, {q.percent(after)} after{to}.{refitted}"
-
-
-def _floor_words(error, floor):
-    """Validation, as the verdict's sentence has it (engine/account/error_words.hpp)."""
-    if not math.isfinite(floor):
-        return ""
-    if diagnosed.is_below_floor(error, floor):
-        return f", at the floor (about {q.percent(floor)}: what replicates leave on average)"
-    return (
-        f", at the floor (about {q.percent(floor)})"
-        if diagnosed.is_at_floor(error, floor)
-        else f", floor {q.percent(floor)}"
-    )
+        return f"Nothing was put into the model; its validation error is {error}.{refitted}"
+    before, after = joint.validation_relerr, joint.augmented_validation_relerr
+    return f"Validation error {q.percent(before)} before, {q.percent(after)} after.{refitted}"
 
 
 def title(effect):

@@ -172,8 +172,6 @@ class Joint:
     augmented_train_relerr: float
     augmented_validation_relerr: float
     augmented_cv_relerr: float
-    floor_relerr: float
-    train_floor_relerr: float
     train_left_out_time: float  # share of the rows that the mask leaves out, and of the baseline's residual energy
     train_left_out_energy: float
     train_relerr_all_rows: float

@@ -1,7 +1,5 @@
 """The motion of a recording, its torque measured and predicted before and after, and what is left: aligned rows."""
 
-import math
-
 import numpy as np
 
 from .. import diagnosed, quantities, style, traces
@@ -10,10 +8,9 @@ from . import Case
 WITHIN = ("velocity", "position", "time")  # axes whose value a trace holds sample by sample
 
 
-def draw(time, position, torque, before, after, floor, window, regions, effort, symbol, unit, width=style.WIDE):
+def draw(time, position, torque, before, after, window, regions, effort, symbol, unit, width=style.WIDE):
     """Arrays [n]; position: (values, unit), None where it is not known; before, after: residuals; after: None without
-    one; floor: half height of the band of what noise alone leaves, 0 unknown; regions [k][2]: times between which the
-    motion is inside a located region."""
+    one; regions [k][2]: times between which the motion is inside a located region."""
     measured = traces.Line("measured", torque, style.LIGHT["measured"], thickness=4, label="measured")
     when = {"before": " before", "after": " after"} if after is not None else {"before": ""}
     predicted = [traces.Line(f"measured-{part}", torque - values, style.LIGHT[colour], thickness=thickness,
@@ -26,7 +23,7 @@ def draw(time, position, torque, before, after, floor, window, regions, effort, 
         if values is not None:
             words = f"residual{when[part]}"
             line = traces.Line(part, values, style.LIGHT[colour], thickness=1.1, label=words)
-            rows.append(traces.Row(f"{words} ({unit})", symbol, unit, [line], 84, -limit, limit, floor))
+            rows.append(traces.Row(f"{words} ({unit})", symbol, unit, [line], 84, -limit, limit))
     if position is not None:
         values, of = position
         line = traces.Line("position", values, style.LIGHT["ink"], thickness=1.1)
@@ -74,7 +71,6 @@ def cases(study):
 
 def _case(study, joint, trace, regions):
     after = trace.after if diagnosed.has_after(joint) and np.isfinite(trace.after).any() else None
-    floor = _floor(joint, trace)
     has_position = len(trace.position) == len(trace.time) and np.isfinite(trace.position).any()
     position = (trace.position, quantities.unit(joint.unit_position)) if has_position else None
     window = window_of_most_gain(trace.time, trace.before, after)
@@ -84,7 +80,6 @@ def _case(study, joint, trace, regions):
         "torque": trace.torque,
         "before": trace.before,
         "after": after,
-        "floor": 2 * floor,
         "window": window,
         "regions": times_inside(trace, regions),
         "effort": study.effort,
@@ -96,8 +91,6 @@ def _case(study, joint, trace, regions):
                                else " Opened on the six seconds with most residual.")
     gaps = " Gaps: rows that are left out, where the joint turns round." if np.isnan(trace.before).any() else ""
     sentence = f"Grey: measured. Below: what is left, on one scale.{gaps}{opened}"
-    if floor:
-        sentence += " Band: ±2 sd of the floor."
     if regions:
         shaded = quantities.listed(dict.fromkeys(diagnosed.axis_title(r.axis) for r in regions))
         sentence += f" Shaded: {shaded} in the located region."
@@ -107,10 +100,3 @@ def _case(study, joint, trace, regions):
         series["position"] = trace.position
     return Case(draw, arguments, f"{study.effort.capitalize()} of {trace.recording}", sentence, wide=True,
                 traces={"time": trace.time, "series": series, "guide": trace.before, "guided_by": "residual"})
-
-
-def _floor(joint, trace):
-    """Standard deviation that a complete model would leave of this trace; 0 when it is not known."""
-    rows = np.isfinite(trace.before)
-    rms = float(np.sqrt(np.mean(trace.torque[rows] ** 2)))
-    return joint.floor_relerr * rms if math.isfinite(joint.floor_relerr) else 0.0

@@ -1,5 +1,4 @@
-"""The relative error before and after, in training, in blocked cross-validation and validation, with the floor; from
-zero."""
+"""The relative error before and after, in training, in blocked cross-validation and validation; from zero."""
 
 import numpy as np
 
@@ -10,7 +9,7 @@ ROW, NARROW_ROW = 34, 44
 
 
 def draw(rows, width=style.WIDE):
-    """rows: [(label, before, after, floor)] as fractions, NaN where not measured."""
+    """rows: [(label, before, after)] as fractions, NaN where not measured."""
     narrow = width < style.WIDE
     row = NARROW_ROW if narrow else ROW
     left, right = (14 if narrow else 150), width - (14 if narrow else 170)
@@ -18,14 +17,11 @@ def draw(rows, width=style.WIDE):
     canvas = style.Canvas(width, bottom + 46)
     axes = canvas.axes(left, 4, right, bottom)
     readings.of(axes, ("relative error", "%"), ("", ""), zoom="x")
-    for index, (label, before, after, floor) in enumerate(rows):
+    for index, (label, before, after) in enumerate(rows):
         y = -index - (0.15 if narrow else 0)
-        for value, when in ((before, "before"), (after, "after"), (floor, "floor")):
+        for value, when in ((before, "before"), (after, "after")):
             if np.isfinite(value):
                 readings.note(axes, f"{label}, {when}: {quantities.percent(value, 3)}", at=(100 * value, y))
-        if np.isfinite(floor):
-            for bar in axes.barh(y, 100 * floor, 0.62, color=style.LIGHT["floor"], zorder=1):
-                bar.set_label("_noise floor")
         if np.isfinite(after):
             axes.plot([100 * before, 100 * after], [y, y], color=style.LIGHT["measured"], linewidth=2.4, zorder=2)
             axes.plot(100 * after, y, marker="o", markersize=9, color=style.LIGHT["augmented"], zorder=4,
@@ -45,17 +41,12 @@ def draw(rows, width=style.WIDE):
 
 
 def rows_of(joint):
-    """[(label, before, after, floor)] of what was measured."""
+    """[(label, before, after)] of what was measured."""
     changed = diagnosed.has_after(joint)
-    # no floor was worked out for blocks of the training recording
-    rows = [("train", joint.train_relerr, joint.augmented_train_relerr, joint.train_floor_relerr),
-            ("blocked CV", joint.cv_relerr, joint.augmented_cv_relerr, np.nan),
-            ("validation", joint.validation_relerr, joint.augmented_validation_relerr, joint.floor_relerr)]
-    return [
-        (label, before, after if changed else np.nan, floor)
-        for label, before, after, floor in rows
-        if np.isfinite(before)
-    ]
+    rows = [("train", joint.train_relerr, joint.augmented_train_relerr),
+            ("blocked CV", joint.cv_relerr, joint.augmented_cv_relerr),
+            ("validation", joint.validation_relerr, joint.augmented_validation_relerr)]
+    return [(label, before, after if changed else np.nan) for label, before, after in rows if np.isfinite(before)]
 
 
 def cases(study):
@@ -65,13 +56,10 @@ def cases(study):
 
 def _case(rows):
     validation = any(label == "validation" for label, *_ in rows)
-    sentence = "Norm of the residual over norm of the measured signal"
-    if any(np.isfinite(floor) for *_, floor in rows):
-        sentence += "; grey bar: the floor, which a complete model would reach"
     return Case(
         draw,
         {"rows": rows},
         "Error in training and validation" if validation else "Error in training",
-        f"{sentence}.",
+        "Norm of the residual over norm of the measured signal.",
         wide=True,
     )
