@@ -20,7 +20,7 @@ bool is_other_kind(double validation, double train) {
 constexpr double usual_p = 0.05;
 
 std::string omnibus_text(JointDiagnosis const& joint) {
-  return p_text(joint.omnibus_p, false, 1.0 / static_cast<double>(joint.replicates + 1));
+  return p_text(joint.omnibus_p, 1.0 / static_cast<double>(joint.replicates + 1));
 }
 
 // of those without a name the candidate that is least by chance; null where all have one

@@ -27,7 +27,7 @@ std::string rest_clause(JointDiagnosis const& joint) {
 
 std::string part_explained_clause(JointDiagnosis const& joint) {
   auto const names = names_of(joint);
-  std::string const share = share_text(joint.explained_share, joint.explained_low, joint.explained_high);
+  std::string const share = share_text(joint.explained_share);
   return fmt::format("{} {} {} of what is missing on held-out rows; {}", name_list(names, "and"),
                      names.size() == 1 ? "explains" : "explain", share.empty() ? "a part" : share, rest_clause(joint));
 }

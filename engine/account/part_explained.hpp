@@ -10,7 +10,7 @@
 
 namespace torquescope {
 
-// "delay explains 71 % (60 to 79 %) of what is missing on held-out rows; what is left stands out at loads between 0.95
+// "delay explains 71 % of what is missing on held-out rows; what is left stands out at loads between 0.95
 // and 1.3 N m (9.0 % of the residual's energy)"
 std::string part_explained_clause(JointDiagnosis const& joint);
 

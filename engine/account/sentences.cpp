@@ -144,7 +144,7 @@ std::string finding_clause(JointDiagnosis const& joint, NamedEffect const& effec
 
 // "Stribeck friction (p < 0.005; presliding cannot be excluded)"
 std::string name_clause(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {
-  std::string const p = p_text(effect.p, effect.p_is_bound, least_p(joint.replicates));
+  std::string const p = p_text(effect.p, least_p(joint.replicates));
   if (one_of_class && !effect.equivalent.empty()) {
     std::vector<std::string> names{effect.name};
     names.insert(names.end(), effect.equivalent.begin(), effect.equivalent.end());
@@ -318,7 +318,6 @@ std::string whole_reason(Diagnosis const& diagnosis) {
   JointDiagnosis const& joint = diagnosis.joints.front();
   if (diagnosis.finding.empty())
     for (auto const& remark : joint.remarks) text += " " + remark;
-  append(text, joint.reference_remark);
   return text;
 }
 

@@ -22,7 +22,7 @@ std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effe
 // is named; what to do when the recording cannot tell; whether the validation recording is of another kind
 std::string reason_sentence(Diagnosis const& diagnosis);
 
-// the same with what the motion closed or merged, and what was not recorded
+// the same with what the motion closed or merged
 std::string whole_reason(Diagnosis const& diagnosis);
 
 // "below 0.12 rad/s in both directions", "around 12 waves per turn"; "" for an interval without axis

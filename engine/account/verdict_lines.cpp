@@ -117,7 +117,7 @@ std::string named_text(JointDiagnosis const& joint, std::size_t most_numbers) {
   std::size_t const shown = std::min(three, effects.size());
   std::string text;
   for (std::size_t k = 0; k < shown; ++k) {
-    auto const p_of = [&](NamedEffect const& one) { return p_text(one.p, one.p_is_bound, least_p(joint.replicates)); };
+    auto const p_of = [&](NamedEffect const& one) { return p_text(one.p, least_p(joint.replicates)); };
     bool const is_last = k + 1 == shown;
     text += (text.empty() ? "" : "; ") + class_of(effects[k], most_numbers);
     if (is_last || p_of(effects[k]) != p_of(effects[k + 1])) text += ", " + p_of(effects[k]);
@@ -133,7 +133,7 @@ std::string without_full_stop(std::string text) {
 
 std::string likeness_text(JointDiagnosis const& joint) {
   if (joint.replicates == 0) return "the model explains the recording";
-  std::string const p = p_text(joint.omnibus_p, false, least_p(joint.replicates));
+  std::string const p = p_text(joint.omnibus_p, least_p(joint.replicates));
   if (!is_unlike_replicates(joint))
     return fmt::format("the residual is like that of {} simulated replicates ({})", joint.replicates, p);
   return fmt::format("the residual differs from that of {} simulated replicates ({}) by too little for a name",
@@ -166,7 +166,7 @@ std::string what_of(Diagnosis const& diagnosis, JointDiagnosis const& joint, Ver
     case Verdict::one_of_class:
       return named_text(joint, numbers_each(joint.effects.size()));
     case Verdict::partly: {
-      std::string const share = share_text(joint.explained_share, joint.explained_low, joint.explained_high);
+      std::string const share = share_text(joint.explained_share);
       if (joint.effects.empty())
         return (share.empty() ? "" : share + " of the mismatch by an effect of the whole arm; of what is left, ") +
                unexplained_text(joint);

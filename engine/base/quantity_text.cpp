@@ -81,25 +81,20 @@ std::string percent_text(double share) {
   return fmt::format("{:.1f} %", percent);
 }
 
-std::string share_text(double share, double low, double high) {
-  if (!std::isfinite(share)) return "";
-  std::string text = two_digits(100.0 * share) + " %";
-  if (!std::isfinite(low) || !std::isfinite(high)) return text;
-  return fmt::format("{} ({} to {} %)", text, two_digits(100.0 * low), two_digits(100.0 * high));
-}
+std::string share_text(double share) { return std::isfinite(share) ? two_digits(100.0 * share) + " %" : ""; }
 
-std::string p_cell(double p, bool is_bound, double least) {
+std::string p_cell(double p, double least) {
   if (!std::isfinite(p)) return "?";
   bool const below_replicates = p < least * (1.0 + 1e-9);
-  if (is_bound || below_replicates || !(p > 0.0)) {
+  if (below_replicates || !(p > 0.0)) {
     double const bound = std::max({p, least, 1e-6});
     return "<" + rounded_up(bound);
   }
   return two_digits(std::min(p, 1.0));
 }
 
-std::string p_text(double p, bool is_bound, double least) {
-  std::string const cell = p_cell(p, is_bound, least);
+std::string p_text(double p, double least) {
+  std::string const cell = p_cell(p, least);
   return cell.starts_with("<") ? "p < " + cell.substr(1) : "p = " + cell;
 }
 

@@ -21,13 +21,13 @@ std::string between_text(double from, double to, std::string const& unit);
 // "12.1 %" of 0.121; below one percent two digits: "0.56 %"
 std::string percent_text(double share);
 
-// "71 % (60 to 79 %)": a share with its interval, two digits each; "71 %" without an interval, "" without a share
-std::string share_text(double share, double low, double high);
+// "71 %": two digits; "" of an unknown share
+std::string share_text(double share);
 
-// "p < 0.005" where the p-value is only known to lie below (is_bound, or below `least`, what so many replicates can
-// show); "p = 0.41" otherwise. Never zero: a bound is rounded up to one digit
-std::string p_text(double p, bool is_bound, double least);
+// "p < 0.005" where the p-value is only known to lie below `least`, what so many replicates can show; "p = 0.41"
+// otherwise. Never zero: a bound is rounded up to one digit
+std::string p_text(double p, double least);
 // the same for a table: "<0.005", "0.41"
-std::string p_cell(double p, bool is_bound, double least);
+std::string p_cell(double p, double least);
 
 }  // namespace torquescope

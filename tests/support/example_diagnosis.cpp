@@ -89,7 +89,7 @@ std::vector<Candidate> invented_candidates() {
   auto const add = [&](std::string const& name, double z, double p, double q, double gain, double cv, Decision decision,
                        std::string reason) {
     Effect const* effect = find_effect(name);
-    candidates.push_back({name, word(effect->family()), z, p, q, gain, cv, 2.9, decision, std::move(reason)});
+    candidates.push_back({name, word(effect->family()), z, p, q, gain, cv, decision, std::move(reason)});
   };
   double const least_p = 1.0 / 201.0;
   add("stribeck", 11.8, least_p, 0.004, 0.71, 0.284, Decision::named, "explains most of the mismatch");
@@ -146,7 +146,6 @@ NamedEffect named(std::string const& name) {
   result.equation = effect.equation();
   result.acts_on = word(effect.acts_on());
   result.p = result.q = 1.0 / 201.0;
-  result.p_is_bound = true;
   return result;
 }
 
@@ -154,10 +153,9 @@ NamedEffect invented_stribeck() {
   NamedEffect effect = named("stribeck");
   effect.equivalent = {"presliding"};
   effect.z = 11.8;
-  effect.gain = {0.281, 0.284, 0.277};
+  effect.gain = {0.281, 0.284};
   effect.region = {"velocity", -0.12, 0.12, "rad/s"};
   effect.places = {effect.region};
-  effect.region_gain = 0.81;
   effect.rms = 0.09;
   effect.peak = 0.34;
   effect.parameters = {{"stribeck", "N m", 0.354, 0.342, 0.366},
@@ -170,10 +168,9 @@ NamedEffect invented_stribeck() {
 NamedEffect invented_cogging() {
   NamedEffect effect = named("cogging");
   effect.z = 7.4;
-  effect.gain = {0.058, 0.061, 0.055};
+  effect.gain = {0.058, 0.061};
   effect.region = {"order", 11.5, 12.5, "1/rad"};
   effect.places = {effect.region};
-  effect.region_gain = 0.78;
   effect.rms = 0.042;
   effect.peak = 0.06;
   effect.parameters = {{"cogging_cos", "N m", 0.0598, 0.0571, 0.0625},
@@ -236,14 +233,7 @@ JointDiagnosis invented_joint() {
   joint.traces = {invented_trace()};
   joint.forward = {{"invented_unseen.csv", 0.0124, 0.0031, 0.57, 1.5e-5}};
   joint.rows = ErrorRows::in_motion;
-  joint.loop_source = "identified";
-  joint.loop_remark = "position and velocity loop, found from the reference";
-  joint.torque_noise = 0.018;
-  joint.disturbance = 0.011;
-  joint.friction_wander = 0.0008;
-  joint.shape_evaluations = 412;
   joint.replicates = 200;
-  joint.omnibus_z = 21.4;
   joint.omnibus_p = 1.0 / 201.0;
   joint.mismatch_rms = 0.104;
   joint.left_rms = 0.012;
@@ -302,7 +292,6 @@ Diagnosis invented_none() {
   }
   for (auto& candidate : joint.candidates) candidate.z = 0.2 * candidate.z, candidate.p = candidate.q = 0.8;
   joint.unexplained.clear();
-  joint.omnibus_z = 0.3;
   joint.omnibus_p = 0.4129;
   joint.budget = {0.01, 0.0, 0.0, 0.99};
   joint.power_sentence = "A 5 % Stribeck effect would have shown.";
@@ -329,10 +318,9 @@ Diagnosis invented_data_fault() {
   effect.z = 14.2;
   effect.region = {"acceleration", -6.0, 6.0, "rad/s2"};
   effect.places = {effect.region};
-  effect.region_gain = 0.8;
   effect.rms = 0.05;
   effect.peak = 0.21;
-  effect.gain = {0.52, 0.51, 0.53};
+  effect.gain = {0.52, 0.51};
   effect.parameters = {{"delay", "s", 0.0038, 0.0037, 0.0039}, {"delay_span", "s", 0.004, 0.002, 0.006}};
   joint.effects = {std::move(effect)};
   return of(Verdict::data_fault, std::move(joint), "", "shift it (recording.delay_s = -0.0038) or fix the logger");

@@ -12,10 +12,7 @@ Diagnosis invented_partly() {
   joint.augmented_train_relerr = 0.0764;
   joint.augmented_validation_relerr = 0.0783;
   joint.augmented_cv_relerr = 0.0771;
-  joint.held_out = {"unseen", "lower", 4.2, 1.67, 60};
   joint.explained_share = 0.71;
-  joint.explained_low = 0.602;
-  joint.explained_high = 0.788;
   joint.budget = {0.03, 0.44, 0.28, 0.25};
   joint.unexplained = {{{"position", 0.4, 0.9, "rad"}, 0.21}, {{"load", 0.95, 1.29, "N m"}, 0.09}};
   joint.left_rms = 0.041;

@@ -33,9 +33,7 @@ class Said:
     after: float | None = None
     time_left_out: float | None = None  # shares, of the rows that errors are of
     energy_left_out: float | None = None
-    explained: float | None = None  # share of what is missing on held-out rows, by its names; ends of its 95 % interval
-    explained_low: float | None = None
-    explained_high: float | None = None
+    explained: float | None = None  # share of what is missing on held-out rows, by its names
 
 
 def said_of(document, screen=""):
@@ -48,7 +46,6 @@ def said_of(document, screen=""):
     validation = baseline.get("validation_relerr") is not None
     error = "validation_relerr" if validation else "cv_relerr"
     rows = left_out.get("validation" if validation else "train") or {}
-    explained = joint.get("explained") or {"share": None, "ci95": (None, None)}  # absent in earlier documents
     return Said(
         verdict=document["verdict"],
         effects=tuple(joint.get("effects") or ()),
@@ -58,9 +55,7 @@ def said_of(document, screen=""):
         after=augmented.get(error),
         time_left_out=rows.get("time_share"),
         energy_left_out=rows.get("energy_share"),
-        explained=explained["share"],
-        explained_low=explained["ci95"][0],
-        explained_high=explained["ci95"][1],
+        explained=(joint.get("explained") or {}).get("share"),  # absent in earlier documents
     )
 
 

@@ -97,8 +97,7 @@ class Runs:
             "names": [{"name": one["name"], "equivalent": one.get("equivalent") or []}
                       for one in grading.names_of(said)],
             **{key: getattr(said, key)
-               for key in ("rows", "before", "after", "time_left_out", "energy_left_out", "explained", "explained_low",
-                           "explained_high")},
+               for key in ("rows", "before", "after", "time_left_out", "energy_left_out", "explained")},
             "grade": grade,
             "why": why,
             "truth": answer.truth if answer else "",
@@ -128,10 +127,8 @@ def looked_at(left_out):
 
 
 def explained(row):
-    """Share of what is missing that the names explain, with its interval where one is known."""
-    ends = row["explained_low"], row["explained_high"]
-    interval = "" if None in ends else f" ({100 * ends[0]:.0f} to {100 * ends[1]:.0f})"
-    return "-" if row["explained"] is None else f"{100 * row['explained']:.0f}{interval}"
+    """Share of what is missing that the names explain."""
+    return "-" if row["explained"] is None else f"{100 * row['explained']:.0f}"
 
 
 def line(row):

@@ -72,8 +72,8 @@ std::string table_of(JointDiagnosis const& joint, std::vector<Candidate const*> 
   for (auto const* one : shown) {
     bool const tested = is_tested(*one);
     row({printable(one->name), printable(one->family),
-         tested && std::isfinite(one->z) ? fmt::format("{:.1f}", one->z) : "",
-         tested ? p_cell(one->p, false, least) : "", cv_gain_cell(one->cv_gain), decision_cell(*one, reasons)});
+         tested && std::isfinite(one->z) ? fmt::format("{:.1f}", one->z) : "", tested ? p_cell(one->p, least) : "",
+         cv_gain_cell(one->cv_gain), decision_cell(*one, reasons)});
   }
   // wide enough for any cell: what is too long for the page is decided by the caller, not by wrapping
   return table.text(4 * page_width());

@@ -227,7 +227,7 @@ std::string diagnosed_model_text(Diagnosis const& diagnosis, Ink const& ink) {
         {"error, validation", "", share_cell(joint.validation_relerr), share_cell(joint.augmented_validation_relerr)});
     add_left_out(table, "train", joint.train_left_out);
     add_left_out(table, "validation", joint.validation_left_out);
-    std::string const explained = share_text(joint.explained_share, joint.explained_low, joint.explained_high);
+    std::string const explained = share_text(joint.explained_share);
     if (!explained.empty()) table.row({"explained, held-out rows", "", "", explained});
     text += ink.bold(fmt::format("model of {} (+- 95 %)", which_joint(joint))) + "\n" + table.text(page_width());
   }

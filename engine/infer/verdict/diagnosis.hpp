@@ -92,15 +92,13 @@ struct Candidate {
   double gain = 0.0;  // share of the mismatch (residual beyond the replicates) it explains, at its best shape
   double cv_gain =
       unknown;  // of the mismatch on blocks of time that nothing was fitted to; below 0 where it makes them worse
-  double chance_z = unknown;  // the largest z that 95 % of the replicates stay below
   Decision decision = Decision::rejected;
   std::string reason{};  // one clause: why this decision; "" for accepted effects
 };
 
 struct EffectGain {
-  // shares of the energy that the baseline leaves there: on the rows, on blocks of them that it was not fitted to,
-  // validation
-  double train = unknown, cv = unknown, validation = unknown;
+  // shares of the energy that the baseline leaves there: on the rows, on blocks of them that it was not fitted to
+  double train = unknown, cv = unknown;
 };
 
 // a curve to draw: the effect against its principal axis
@@ -120,11 +118,9 @@ struct NamedEffect {
   std::string acts_on;                    // word of ActsOn
   std::vector<std::string> equivalent{};  // effects that fit as well
   double p = 1.0, q = 1.0, z = 0.0;       // at the step at which it was accepted
-  bool p_is_bound = false;                // no replicate reached it: p is an upper bound
   EffectGain gain{};
   AxisInterval region{};               // where it acts, as one interval (acting_region.hpp)
   std::vector<AxisInterval> places{};  // the same as one or two
-  double region_gain = unknown;        // share of its gain taken where it acts; of results before 27 Nov 2026
   double rms = unknown,
          peak = unknown;  // torque beside the model's own terms; peak: where it acts (effect_account.hpp)
   std::vector<ParameterEstimate> parameters{};
@@ -180,14 +176,6 @@ struct LeftOut {
   double torque_energy = unknown;                       // of all rows
 };
 
-// the paired test on rows that nothing was fitted to (held_out_gain.hpp)
-struct HeldOutTest {
-  std::string rows{};    // "unseen", "cross-validated"; "": not made
-  std::string change{};  // "lower", "not lower", "undecided"
-  double t = unknown, asked_for = unknown;
-  std::size_t blocks = 0;
-};
-
 // what effects took from the fitted baseline (JointScales); of results before 27 Nov 2026 unknown
 struct EffectLevels {
   double forward = unknown, backward = unknown;  // friction_sign() of either direction
@@ -210,9 +198,7 @@ struct JointDiagnosis {
   double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
   double validation_torque_energy = unknown;  // of the rows that validation_relerr is of
   LeftOut train_left_out{}, validation_left_out{};
-  HeldOutTest held_out{};
-  // of the mismatch's energy on held-out rows, what the accepted effects explain, with a 95 % interval
-  double explained_share = unknown, explained_low = unknown, explained_high = unknown;
+  double explained_share = unknown;  // of the mismatch's energy on held-out rows, what the accepted effects explain
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
   std::string other_joints{};  // that what is left goes with their motion: a sentence of the reason, not stored
@@ -223,15 +209,9 @@ struct JointDiagnosis {
   // how it was found
   ErrorRows rows = ErrorRows::one_way;
   std::vector<std::string> remarks{};  // what the motion closed or merged: sentences, in the reason, not stored
-  std::string reference_remark{};      // that no reference was recorded: a sentence of the reason, not stored
   std::string timing_sentence{};       // what was done to the torque channel's time; in the reason
-  std::string loop_source;             // "identified", "approximated", "tracking"
-  std::string loop_remark;
-  double torque_noise = unknown, disturbance = unknown;
-  double friction_wander = unknown;    // share of the level of dry friction per square root of a second
-  std::int64_t shape_evaluations = 0;  // spent on shapes, over all steps of the selection
   std::size_t replicates = 0;
-  double omnibus_z = 0.0, omnibus_p = 1.0;    // of the whole mismatch, at the first step
+  double omnibus_p = 1.0;                     // of the whole mismatch, at the first step
   double mismatch_rms = 0.0;                  // torque beyond the replicates
   double left_rms = 0.0;                      // the same with the accepted effects in the model
   std::vector<double> replicate_energy{};     // residual energy of each replicate over that of the recording

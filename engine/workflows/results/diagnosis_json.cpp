@@ -35,23 +35,20 @@ Json region_json(MismatchRegion const& region) {
 
 // p as the screen, the page and the Python reader have it: no replicate reached it where it is a bound, and below that
 // bound there is only their tail, continued
-void add_p(Json& to, double p, bool is_bound, std::size_t replicates) {
+void add_p(Json& to, double p, std::size_t replicates) {
   double const least = least_p(replicates);
   to["p"] = json_number(std::max(p, least));
-  to["p_is_bound"] = is_bound || p <= least * (1.0 + 1e-9);
+  to["p_is_bound"] = p <= least * (1.0 + 1e-9);
   to["p_extrapolated"] = json_number(p);
 }
 
 Json effect_json(NamedEffect const& effect, std::size_t replicates) {
   Json made = {
       {"name", effect.name}, {"family", effect.family}, {"acts_on", effect.acts_on}, {"equivalent", effect.equivalent}};
-  add_p(made, effect.p, effect.p_is_bound, replicates);
+  add_p(made, effect.p, replicates);
   made.update({{"q", json_number(effect.q)},
                {"z", json_number(effect.z)},
-               {"gain",
-                {{"train", json_number(effect.gain.train)},
-                 {"cv", json_number(effect.gain.cv)},
-                 {"validation", json_number(effect.gain.validation)}}},
+               {"gain", {{"train", json_number(effect.gain.train)}, {"cv", json_number(effect.gain.cv)}}},
                {"region",
                 {{"axis", effect.region.axis},
                  {"from", json_number(effect.region.from)},
@@ -67,7 +64,7 @@ Json candidate_json(Candidate const& candidate, std::size_t replicates) {
                {"decision", word(candidate.decision)},
                {"reason", candidate.reason},
                {"z", json_number(candidate.z)}};
-  add_p(made, candidate.p, false, replicates);
+  add_p(made, candidate.p, replicates);
   made.update({{"q", json_number(candidate.q)},
                {"gain", json_number(candidate.gain)},
                {"cv_gain", json_number(candidate.cv_gain)}});
@@ -90,19 +87,6 @@ Json left_out_json(LeftOut const& left_out) {
           {"energy_share", json_number(left_out.energy)},
           {"relerr_all_rows", json_number(left_out.relerr)},
           {"augmented_relerr_all_rows", json_number(left_out.augmented_relerr)}};
-}
-
-Json held_out_json(HeldOutTest const& test) {
-  return {{"rows", test.rows},
-          {"change", test.change},
-          {"t", json_number(test.t)},
-          {"asked_for", json_number(test.asked_for)},
-          {"blocks", test.blocks}};
-}
-
-Json explained_json(JointDiagnosis const& joint) {
-  return {{"share", json_number(joint.explained_share)},
-          {"ci95", Json::array({json_number(joint.explained_low), json_number(joint.explained_high)})}};
 }
 
 Json decision_effect_json(DecisionAccount::Effect const& effect) {
@@ -182,8 +166,7 @@ Json joint_json(JointDiagnosis const& joint) {
          {"parameters", json_list(joint.augmented, parameter_json)}}},
        {"left_out",
         {{"train", left_out_json(joint.train_left_out)}, {"validation", left_out_json(joint.validation_left_out)}}},
-       {"held_out", held_out_json(joint.held_out)},
-       {"explained", explained_json(joint)},
+       {"explained", {{"share", json_number(joint.explained_share)}}},
        {"budget",
         {{"parameter_error", json_number(joint.budget.parameter_error)},
          {"missing_physics", json_number(joint.budget.missing_physics)},

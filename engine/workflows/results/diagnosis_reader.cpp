@@ -68,11 +68,11 @@ std::vector<Candidate> read_candidates(StoredObjects const& in, std::string cons
   auto const names = words("names"), families = words("families"), decided = words("decisions");
   auto const reasons = words("reasons");
   auto const z = column("z"), p = column("p"), q = column("q"), gain = column("gain");
-  auto const cv_gain = column("cv_gain"), chance_z = column("chance_z");
-  in.check_same_length(group, names.size(), families, decided, reasons, z, p, q, gain, cv_gain, chance_z);
+  auto const cv_gain = column("cv_gain");
+  in.check_same_length(group, names.size(), families, decided, reasons, z, p, q, gain, cv_gain);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < names.size(); ++i)
-    candidates.push_back({names[i], families[i], z[i], p[i], q[i], gain[i], cv_gain[i], chance_z[i],
+    candidates.push_back({names[i], families[i], z[i], p[i], q[i], gain[i], cv_gain[i],
                           in.choice(decided[i], decisions, group), reasons[i]});
   return candidates;
 }
@@ -98,17 +98,15 @@ NamedEffect read_effect(StoredObjects const& in, std::string const& group) {
   effect.acts_on = in.text(group, "acts_on");
   effect.equivalent = in.texts(group, "equivalent");
   effect.p = in.number(group, "p");
-  effect.p_is_bound = in.whole(group, "p_is_bound") != 0;
   effect.q = in.number(group, "q");
   effect.z = in.number(group, "z");
-  effect.gain = {in.number(group, "gain_train"), in.number(group, "gain_cv"), in.number(group, "gain_validation")};
+  effect.gain = {in.number(group, "gain_train"), in.number(group, "gain_cv")};
   effect.region = read_interval(in, group, "region");
   auto const from = in.numbers(group + "/places/from"), to = in.numbers(group + "/places/to");
   in.check_same_length(group + "/places", from.size(), to);
   for (std::size_t i = 0; i < from.size(); ++i)
     effect.places.push_back({effect.region.axis, from[i], to[i], effect.region.unit});
   if (effect.places.empty()) effect.places = {effect.region};
-  effect.region_gain = in.number(group, "region_gain");
   effect.rms = in.number(group, "rms");
   effect.peak = in.number(group, "peak");
   effect.sentence = in.text(group, "sentence");
@@ -175,26 +173,14 @@ void read_joint_attributes(StoredObjects const& in, std::string const& group, Jo
   };
   joint.train_left_out = left_out("train");
   joint.validation_left_out = left_out("validation");
-  joint.held_out = {in.text(group, "held_out_rows"), in.text(group, "held_out_change"), in.number(group, "held_out_t"),
-                    in.number(group, "held_out_t_asked_for"),
-                    static_cast<std::size_t>(std::max<std::int64_t>(0, in.whole(group, "held_out_blocks")))};
   joint.explained_share = in.number(group, "explained_share");
-  joint.explained_low = in.number(group, "explained_low");
-  joint.explained_high = in.number(group, "explained_high");
   joint.effect_levels = {in.number(group, "friction_sign_forward"), in.number(group, "friction_sign_backward"),
                          in.number(group, "baseline_inertia")};
   joint.budget = {in.number(group, "budget_parameter_error"), in.number(group, "budget_missing_physics"),
                   in.number(group, "budget_unexplained"), in.number(group, "budget_noise")};
   joint.nuisances = in.texts(group, "nuisances");
   joint.rows = error_rows_called(in.text(group, "rows"));
-  joint.loop_source = in.text(group, "loop_source");
-  joint.loop_remark = in.text(group, "loop_remark");
-  joint.torque_noise = in.number(group, "torque_noise");
-  joint.disturbance = in.number(group, "disturbance");
-  joint.friction_wander = in.number(group, "friction_wander");
-  joint.shape_evaluations = in.whole(group, "shape_evaluations");
   joint.replicates = static_cast<std::size_t>(std::max<std::int64_t>(0, in.whole(group, "twins")));
-  joint.omnibus_z = in.number(group, "omnibus_z");
   joint.omnibus_p = in.number(group, "omnibus_p");
   joint.mismatch_rms = in.number(group, "mismatch_rms");
   joint.left_rms = in.number(group, "left_rms");

@@ -98,8 +98,7 @@ void write_candidates(ResultWriter& writer, std::string const& group, std::vecto
       .numbers("q", [](C const& c) { return c.q; }, {"1", "false-discovery level"})
       .numbers("gain", [](C const& c) { return c.gain; }, {"1", "share of the mismatch explained"})
       .numbers("cv_gain", [](C const& c) { return c.cv_gain; },
-               {"1", "of the mismatch on blocks of time that nothing was fitted to"})
-      .numbers("chance_z", [](C const& c) { return c.chance_z; }, {"1", "z that 95 % of the replicates stay below"});
+               {"1", "of the mismatch on blocks of time that nothing was fitted to"});
 }
 
 void write_curve(ResultWriter& writer, std::string const& group, EffectCurve const& curve, std::string const& torque) {
@@ -126,17 +125,14 @@ void write_effect(ResultWriter& writer, std::string const& group, NamedEffect co
   writer.attribute(group, "is_fault", is_fault(effect));
   text_list(writer, group, "equivalent", effect.equivalent);
   writer.attribute(group, "p", effect.p);
-  writer.attribute(group, "p_is_bound", effect.p_is_bound);
   writer.attribute(group, "q", effect.q);
   writer.attribute(group, "z", effect.z);
   writer.attribute(group, "gain_train", effect.gain.train);
   writer.attribute(group, "gain_cv", effect.gain.cv);
-  writer.attribute(group, "gain_validation", effect.gain.validation);
   write_interval(writer, group, "region", effect.region);
   TableColumns<AxisInterval>(writer, group + "/places", effect.places)
       .numbers("from", [](AxisInterval const& i) { return i.from; }, {effect.region.unit, "lower end"})
       .numbers("to", [](AxisInterval const& i) { return i.to; }, {effect.region.unit, "upper end"});
-  writer.attribute(group, "region_gain", effect.region_gain);
   writer.attribute(group, "rms", effect.rms);
   writer.attribute(group, "peak", effect.peak);
   writer.attribute(group, "sentence", effect.sentence);
@@ -213,14 +209,7 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   };
   write_left_out("train", joint.train_left_out);
   write_left_out("validation", joint.validation_left_out);
-  writer.attribute(group, "held_out_rows", joint.held_out.rows);
-  writer.attribute(group, "held_out_change", joint.held_out.change);
-  writer.attribute(group, "held_out_t", joint.held_out.t);
-  writer.attribute(group, "held_out_t_asked_for", joint.held_out.asked_for);
-  writer.attribute(group, "held_out_blocks", static_cast<std::int64_t>(joint.held_out.blocks));
   writer.attribute(group, "explained_share", joint.explained_share);
-  writer.attribute(group, "explained_low", joint.explained_low);
-  writer.attribute(group, "explained_high", joint.explained_high);
   writer.attribute(group, "friction_sign_forward", joint.effect_levels.forward);
   writer.attribute(group, "friction_sign_backward", joint.effect_levels.backward);
   writer.attribute(group, "baseline_inertia", joint.effect_levels.inertia);
@@ -230,14 +219,7 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "budget_noise", joint.budget.noise);
   text_list(writer, group, "nuisances", joint.nuisances);
   writer.attribute(group, "rows", word(joint.rows));
-  writer.attribute(group, "loop_source", joint.loop_source);
-  writer.attribute(group, "loop_remark", joint.loop_remark);
-  writer.attribute(group, "torque_noise", joint.torque_noise);
-  writer.attribute(group, "disturbance", joint.disturbance);
-  writer.attribute(group, "friction_wander", joint.friction_wander);
-  writer.attribute(group, "shape_evaluations", joint.shape_evaluations);
   writer.attribute(group, "twins", static_cast<std::int64_t>(joint.replicates));
-  writer.attribute(group, "omnibus_z", joint.omnibus_z);
   writer.attribute(group, "omnibus_p", joint.omnibus_p);
   writer.attribute(group, "mismatch_rms", joint.mismatch_rms);
   writer.attribute(group, "left_rms", joint.left_rms);

@@ -94,8 +94,8 @@ def _parameters_of_diagnosis(result):
 
 
 def _effects(result):
-    keys = ("family", "title", "p", "p_is_bound", "q", "z", "gain_train", "gain_cv", "gain_validation", "rms", "peak",
-            "is_fault", "sentence")
+    keys = ("family", "title", "p", "p_is_bound", "q", "z", "gain_train", "gain_cv", "rms", "peak", "is_fault",
+            "sentence")
     return [{"joint": number, "effect": one.name, **{key: getattr(one, key) for key in keys},
              "equivalent": ", ".join(one.equivalent)}
             for number, of in _with_the_arm(result) for one in of.effects], ["joint", "effect"]
@@ -108,7 +108,7 @@ def _with_the_arm(result):
 
 
 def _candidates(result):
-    keys = ("family", "decision", "reason", "z", "p", "p_is_bound", "q", "gain", "cv_gain", "chance_z")
+    keys = ("family", "decision", "reason", "z", "p", "p_is_bound", "q", "gain", "cv_gain")
     return [{"joint": number, "effect": one.name, **{key: getattr(one, key) for key in keys}}
             for number, of in _with_the_arm(result) for one in of.candidates], ["joint", "effect"]
 

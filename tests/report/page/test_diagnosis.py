@@ -143,21 +143,19 @@ class Reader(unittest.TestCase):
         for one, effect in zip(told["joints"][0]["effects"], found.joints[0].effects):
             self.assertEqual((one["name"], one["z"], one["gain"]["cv"]), (effect.name, effect.z, effect.gain_cv))
 
-    def test_the_share_that_is_explained_has_its_interval(self):
-        part = joint("partly")
-        self.assertEqual((part.explained_share, part.explained_low, part.explained_high), (0.71, 0.602, 0.788))
+    def test_the_share_that_is_explained_is_read(self):
+        self.assertEqual(joint("partly").explained_share, 0.71)
         told = json.loads(diagnosis("partly").verdict_json)["joints"][0]["explained"]
-        self.assertEqual(told, {"share": 0.71, "ci95": [0.602, 0.788]})
+        self.assertEqual(told, {"share": 0.71})
         self.assertTrue(math.isnan(joint("named").explained_share))
 
     def test_a_result_of_an_earlier_version_has_no_such_share(self):
         path = support.FOLDER / "earlier.h5"
         shutil.copy(support.result("named"), path)
         with h5py.File(path, "r+") as file:
-            for end in ("share", "low", "high"):
-                del file["diagnosis/joint_1"].attrs[f"explained_{end}"]
+            del file["diagnosis/joint_1"].attrs["explained_share"]
         found = Study(path).diagnosis.joints[0]
-        self.assertTrue(all(map(math.isnan, (found.explained_share, found.explained_low, found.explained_high))))
+        self.assertTrue(math.isnan(found.explained_share))
         self.assertEqual(words_of_diagnosis.big_numbers(found), words_of_diagnosis.big_numbers(joint("named")))
 
     def test_the_summary_has_the_verdict_and_both_models(self):
@@ -208,9 +206,9 @@ class Verdict(unittest.TestCase):
     def test_a_part_says_how_much_and_shows_what_is_left(self):
         verdict = words_of_diagnosis.verdict(support.study("partly"))
         self.assertEqual((verdict["word"], verdict["tone"]), ("Missing physics partly explained", "blue"))
-        self.assertTrue(verdict["sentence"].startswith("71 % (60 to 79 %) of the mismatch by Stribeck friction 0.35"),
+        self.assertTrue(verdict["sentence"].startswith("71 % of the mismatch by Stribeck friction 0.35"),
                         verdict["sentence"])
-        self.assertIn(("71 %", "", "of what is missing on held-out rows is explained; 95 %: 60 % to 79 %"),
+        self.assertIn(("71 %", "", "of what is missing on held-out rows is explained"),
                       words_of_diagnosis.big_numbers(joint("partly")))
         for words in ("stribeck speed", "What is left", "and is not explained"):
             self.assertTrue(words in read_by_a_person("partly"), words)

@@ -8,8 +8,7 @@ import numpy as np
 # a comment that opens, and a script inside: a browser that takes them for its own looks for the end of both
 HOSTILE_WORDS = "<!--<script>alert(1)</script> $unmatched"
 
-NOT_MEASURED = ("validation_relerr", "augmented_validation_relerr", "cv_relerr", "augmented_cv_relerr", "torque_noise",
-                "disturbance")
+NOT_MEASURED = ("validation_relerr", "augmented_validation_relerr", "cv_relerr", "augmented_cv_relerr")
 
 
 def replace(group, name, values):
@@ -66,7 +65,7 @@ def hardly_measured(file):
     joint = file["diagnosis/joint_1"]
     for name in NOT_MEASURED:
         joint.attrs[name] = np.nan
-    for name in ("cv_gain", "chance_z", "q"):
+    for name in ("cv_gain", "q"):
         joint[f"candidates/{name}"][...] = np.nan
     joint["augmented/ci95"][...] = np.nan
     for axis in joint["map"].values():
@@ -76,7 +75,7 @@ def hardly_measured(file):
     for name in ("forward", "twin_energy", "unexplained", "excitation", "traces"):
         del joint[name]
     for effect in joint["effects"].values():
-        for name in ("gain_cv", "gain_validation", "peak", "region_gain", "rms"):
+        for name in ("gain_cv", "peak", "rms"):
             effect.attrs[name] = np.nan
         del effect["curve"]
     del file["data/validate"]

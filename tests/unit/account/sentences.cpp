@@ -35,7 +35,6 @@ NamedEffect effect_of(Effect const& effect, double value) {
   named.title = effect.title();
   named.acts_on = word(effect.acts_on());
   named.p = 1.0 / 201.0;
-  named.p_is_bound = true;
   named.peak = 0.21;
   for (auto const& parameter : effect.parameters())
     named.parameters.push_back({parameter.name, parameter.unit_revolute, value, value, value});

@@ -16,7 +16,6 @@ NamedEffect effect_of(std::string const& name, std::string const& title) {
   effect.name = name;
   effect.title = title;
   effect.p = 0.002;
-  effect.p_is_bound = true;
   return effect;
 }
 

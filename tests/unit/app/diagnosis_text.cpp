@@ -159,9 +159,8 @@ TEST(DiagnosisText, EveryCandidateThatIsNotNamedHasItsReason) {
 TEST(DiagnosisText, WhatWasNotTestedSaysSo) {
   Diagnosis diagnosis = example::invented_none();
   auto& candidates = diagnosis.joints[0].candidates;
-  Candidate const term{
-      "coulomb_positive",           "baseline", 0.0, 1.0, 1.0, 0.0, unknown, unknown, Decision::not_tested,
-      "a term of the model already"};
+  Candidate const term{"coulomb_positive",           "baseline", 0.0, 1.0, 1.0, 0.0, unknown, Decision::not_tested,
+                       "a term of the model already"};
   candidates.insert(candidates.begin(), 2, term);
   std::string const all = diagnosis_text(diagnosis, everything, Ink());
   EXPECT_THAT(all, HasSubstr("\n       coulomb_positive "));
@@ -208,8 +207,7 @@ TEST(DiagnosedModelText, ShowsEveryParameterBeforeAndAfter) {
 
 TEST(DiagnosedModelText, ShowsTheShareThatIsExplainedWhereItIsKnown) {
   Diagnosis diagnosis = example::invented_partly();
-  EXPECT_THAT(diagnosed_model_text(diagnosis, Ink()),
-              ::testing::ContainsRegex("explained, held-out rows +71 % \\(60 to 79 %\\)"));
+  EXPECT_THAT(diagnosed_model_text(diagnosis, Ink()), ::testing::ContainsRegex("explained, held-out rows +71 %"));
   diagnosis.joints[0].explained_share = unknown;
   EXPECT_THAT(diagnosed_model_text(diagnosis, Ink()), Not(HasSubstr("explained")));
 }

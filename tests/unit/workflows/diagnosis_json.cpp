@@ -27,7 +27,7 @@ Json const pattern = Json::parse(R"({
                   "repeatable_share": 0}],
     "effects": [{"name": "", "family": "", "acts_on": "", "equivalent": [""],
                  "p": 0, "p_is_bound": false, "p_extrapolated": 0, "q": 0, "z": 0,
-                 "gain": {"train": 0, "cv": 0, "validation": 0},
+                 "gain": {"train": 0, "cv": 0},
                  "region": {"axis": "", "from": 0, "to": 0},
                  "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "sentence": ""}],
     "candidates": [{"name": "", "family": "", "decision": "", "reason": "", "z": 0, "p": 0,
@@ -37,8 +37,7 @@ Json const pattern = Json::parse(R"({
     "left_out": {"train": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0, "augmented_relerr_all_rows": 0},
                  "validation": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0,
                                 "augmented_relerr_all_rows": 0}},
-    "held_out": {"rows": "", "change": "", "t": 0, "asked_for": 0, "blocks": 0},
-    "explained": {"share": 0, "ci95": [0]},
+    "explained": {"share": 0},
     "budget": {"parameter_error": 0, "missing_physics": 0, "unexplained": 0, "noise": 0},
     "unexplained": [{"axis": "", "from": 0, "to": 0, "energy_share": 0}],
     "excitation": [{"lacks": "", "would_separate": [""]}]}]})");
@@ -93,15 +92,15 @@ TEST(DiagnosisJson, TellsTheNumbersUnrounded) {
   EXPECT_EQ(joint["mismatch"][2]["axis"], "order");
 }
 
-TEST(DiagnosisJson, TellsTheShareThatIsExplainedWithItsInterval) {
+TEST(DiagnosisJson, TellsTheShareThatIsExplained) {
   Diagnosis diagnosis = example::invented_partly();
   Json document = Json::parse(diagnosis_json(diagnosis));
   EXPECT_EQ(document["verdict"], "partly");
-  EXPECT_EQ(document["joints"][0]["explained"], Json::parse(R"({"share": 0.71, "ci95": [0.602, 0.788]})"));
+  EXPECT_EQ(document["joints"][0]["explained"], Json::parse(R"({"share": 0.71})"));
   EXPECT_EQ(document["joints"][0]["effects"].size(), 2u);
-  diagnosis.joints[0].explained_high = unknown;
+  diagnosis.joints[0].explained_share = unknown;
   document = Json::parse(diagnosis_json(diagnosis));
-  EXPECT_EQ(document["joints"][0]["explained"], Json::parse(R"({"share": 0.71, "ci95": [0.602, null]})"));
+  EXPECT_EQ(document["joints"][0]["explained"], Json::parse(R"({"share": null})"));
 }
 
 // the screen says < 0.005 of it

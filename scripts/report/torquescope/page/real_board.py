@@ -27,10 +27,9 @@ def looked_at(left_out):
 
 
 def explained(case):
-    """Share of what is missing that the names explain, with its interval; a table of an earlier version has none."""
-    share, low, high = (case.get(key) for key in ("explained", "explained_low", "explained_high"))
-    interval = "" if None in (low, high) else f" ({q.fixed(100 * low, 0)} to {q.fixed(100 * high, 0)} %)"
-    return "–" if share is None else f"{q.fixed(100 * share, 0)} %{interval}"
+    """Share of what is missing that the names explain; a table of an earlier version has none."""
+    share = case.get("explained")
+    return "–" if share is None else f"{q.fixed(100 * share, 0)} %"
 
 
 def said(case):

@@ -11,11 +11,9 @@ MARKS = {"named": "●", "class": "◍", "measurement": "✕", "no": "○", "not
 
 
 def candidates(joint):
-    """One dict of words per candidate, with the pixels of its dot: `chance` and `z` count from the left edge. What is
-    named first, then by p as it is shown, equal ones by z; what was not tested comes last."""
-    scale = (DOTS_WIDTH - 12) / max(
-        [1.0] + [value for one in joint.candidates for value in (one.z, one.chance_z) if math.isfinite(value)]
-    )
+    """One dict of words per candidate, with the pixels of its dot from the left edge. What is named first, then by p as
+    it is shown, equal ones by z; what was not tested comes last."""
+    scale = (DOTS_WIDTH - 12) / max([1.0] + [one.z for one in joint.candidates if math.isfinite(one.z)])
     return [_candidate(one, scale) for one in sorted(joint.candidates, key=_rank)]
 
 
@@ -36,7 +34,6 @@ def _candidate(one, scale):
         "mark": MARKS.get(one.decision, "○"),
         "decision": one.decision,
         "reason": one.reason or diagnosed.plain(one.decision),
-        "chance": pixels(one.chance_z) if math.isfinite(one.chance_z) else None,
         "z_pixel": pixels(one.z) if tested else None,
         "z": q.fixed(one.z, 1) if tested else "–",
         "p": diagnosed.p_cell(one.p, one.p_is_bound) if tested else "–",

@@ -108,8 +108,7 @@ def big_numbers(joint):
     """[(number, unit, caption)]: at most four, without what was not measured."""
     found = [(_before_after(before, after), "", caption) for before, after, caption in diagnosed.told_errors(joint)]
     if math.isfinite(joint.explained_share):
-        found.append((q.percent(joint.explained_share), "",
-                      f"of what is missing on held-out rows is explained{_interval_words(joint)}"))
+        found.append((q.percent(joint.explained_share), "", "of what is missing on held-out rows is explained"))
     as_far = diagnosed.twins_as_far(joint)
     if as_far is not None:
         found.append((q.whole(as_far), f"of {q.whole(joint.twins)}", "simulated replicates look like this"))
@@ -118,12 +117,6 @@ def big_numbers(joint):
 
 def _before_after(before, after):
     return f"{q.number(100 * before, 2)} → {q.percent(after)}" if math.isfinite(after) else q.percent(before)
-
-
-def _interval_words(joint):
-    """Of the share that is explained; empty where no interval is known."""
-    ends = joint.explained_low, joint.explained_high
-    return f"; 95 %: {q.percent(ends[0])} to {q.percent(ends[1])}" if all(map(math.isfinite, ends)) else ""
 
 
 def map_answer(joint):
@@ -149,8 +142,8 @@ def candidates_answer(joint):
         said = (f"{q.count(tested, 'candidate')} tested, smallest p first, equal p by z; "
                 + ("what is named stands on top" if named else "none is named"))
     return (
-        f"{said}. p counts the search over all effects and shapes. Grey: what 95 % of the replicates stay below. CV "
-        "gain: share of the mismatch that is predicted on blocks of time that nothing was fitted to; –: not tried."
+        f"{said}. p counts the search over all effects and shapes. CV gain: share of the mismatch that is predicted on "
+        "blocks of time that nothing was fitted to; –: not tried."
     )
 
 
@@ -192,16 +185,10 @@ def effect_line(joint, effect):
     """The evidence for one effect in one line."""
     p = diagnosed.p_cell(effect.p, effect.p_is_bound)
     said = [f"z {q.fixed(effect.z, 1)}", f"p {p.replace('<', '< ') if p.startswith('<') else '= ' + p}"]
-    gains = [
-        (effect.gain_train, "in training"),
-        (effect.gain_cv, "cross-validated"),
-        (effect.gain_validation, "validation"),
-    ]
+    gains = [(effect.gain_train, "in training"), (effect.gain_cv, "cross-validated")]
     gains = [f"{diagnosed.share_words(gain)} {where}" for gain, where in gains if math.isfinite(gain)]
     if gains:
         said.append(f"of the residual's energy it takes {q.listed(gains)}")
-    if math.isfinite(effect.region_gain):
-        said.append(f"{q.percent(effect.region_gain)} of that where the effect is strong")
     if math.isfinite(effect.peak):
         said.append(f"peak {q.with_unit(q.number(effect.peak, 2), joint.unit_torque)}")
     if effect.equivalent:
@@ -233,17 +220,10 @@ def next_steps(study, joint):
 
 
 def how_found(joint):
-    """[(what, value)] for the fold: the replicates and the loop they were simulated with."""
-    told = [("replicates", q.whole(joint.twins) if joint.twins else "not made"), ("samples", joint.rows),
-            ("control loop", joint.loop_source),
-            ("about the loop", joint.loop_remark)]
-    for what, value in (("torque noise", joint.torque_noise), ("disturbance", joint.disturbance),
-                        ("mismatch beyond the replicates, rms", joint.mismatch_rms),
+    """[(what, value)] for the fold: the replicates, and what the recording has beyond them."""
+    told = [("replicates", q.whole(joint.twins) if joint.twins else "not made"), ("samples", joint.rows)]
+    for what, value in (("mismatch beyond the replicates, rms", joint.mismatch_rms),
                         ("the same after", joint.left_rms)):
         measured = math.isfinite(value) and joint.twins
         told.append((what, q.with_unit(q.number(value), joint.unit_torque) if measured else "not measured"))
-    if math.isfinite(joint.friction_wander) and joint.twins:
-        told.append(("dry friction wanders in a minute by", q.percent(joint.friction_wander * math.sqrt(60.0))))
-    if joint.shape_evaluations:
-        told.append(("evaluations of shapes", q.whole(joint.shape_evaluations)))
-    return [(what, value) for what, value in told if value]
+    return told

@@ -86,7 +86,6 @@ class Candidate:
     q: float
     gain: float
     cv_gain: float
-    chance_z: float  # what 95 % of the replicates stay below
 
 
 @dataclass
@@ -115,10 +114,8 @@ class NamedEffect:
     z: float
     gain_train: float
     gain_cv: float
-    gain_validation: float
     region: Interval
     places: list  # [Interval] of the region's axis: one, or two where one would not do
-    region_gain: float
     rms: float
     peak: float
     sentence: str
@@ -180,22 +177,13 @@ class Joint:
     validation_left_out_energy: float
     validation_relerr_all_rows: float
     augmented_validation_relerr_all_rows: float
-    explained_share: float  # of the mismatch's energy on held-out rows, by what is named; with its 95 % interval
-    explained_low: float
-    explained_high: float
+    explained_share: float  # of the mismatch's energy on held-out rows, by what is named
     budget_parameter_error: float
     budget_missing_physics: float
     budget_unexplained: float
     budget_noise: float
     rows: str  # "moving one way", "with reversals" or "all": what errors and pictures are of
-    loop_source: str
-    loop_remark: str
-    torque_noise: float
-    disturbance: float
-    friction_wander: float  # share of the level of dry friction per root of a second
-    shape_evaluations: int
     twins: int
-    omnibus_z: float
     omnibus_p: float
     mismatch_rms: float
     left_rms: float

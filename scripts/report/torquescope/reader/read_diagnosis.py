@@ -68,10 +68,10 @@ def least_p(replicates):
     return 1 / (replicates + 1) if replicates else 0.0
 
 
-def _counted(p, is_bound, replicates):
+def _counted(p, replicates):
     """p, p_is_bound, p_extrapolated: as the JSON of the diagnosis has them."""
     least = least_p(replicates)
-    return {"p": max(p, least), "p_is_bound": bool(is_bound) or p <= least * (1 + 1e-9), "p_extrapolated": p}
+    return {"p": max(p, least), "p_is_bound": bool(p <= least * (1 + 1e-9)), "p_extrapolated": p}
 
 
 def _candidates(group, replicates):
@@ -80,7 +80,7 @@ def _candidates(group, replicates):
     names = [name for name in Candidate.__dataclass_fields__ if name not in ("p_is_bound", "p_extrapolated")]
     arrays = (getattr(group, _CANDIDATE_COLUMNS.get(name, name)).tolist() for name in names)
     rows = (dict(zip(names, values)) for values in zip(*arrays))
-    return [Candidate(**{**row, **_counted(row["p"], False, replicates)}) for row in rows]
+    return [Candidate(**{**row, **_counted(row["p"], replicates)}) for row in rows]
 
 
 def _numbered(group, name):
@@ -154,7 +154,7 @@ def _interval(group, name):
 def _effect(group, replicates):
     plain = {name: group.get(name, "") for name in ("name", "family", "title", "equation", "acts_on", "sentence")}
     numbers = {name: group.get(name, UNKNOWN) for name in
-               ("q", "z", "gain_train", "gain_cv", "gain_validation", "region_gain", "rms", "peak")}
+               ("q", "z", "gain_train", "gain_cv", "rms", "peak")}
     region, curve = _interval(group, "region"), None
     places = [region]
     if "places" in group:
@@ -167,7 +167,7 @@ def _effect(group, replicates):
         **plain,
         **numbers,
         equivalent=group.get("equivalent", []),
-        **_counted(group.get("p", UNKNOWN), group.get("p_is_bound", 0), replicates),
+        **_counted(group.get("p", UNKNOWN), replicates),
         region=region,
         places=places,
         parameters=_parameters(group.get("parameters")),
