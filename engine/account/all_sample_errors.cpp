@@ -10,18 +10,9 @@
 namespace torquescope {
 namespace {
 
-bool are_all_rows(JointDiagnosis const& joint) { return joint.rows == ErrorRows::all; }
-
-ErrorPair over_all(LeftOut const& left_out) { return {left_out.relerr, left_out.augmented_relerr}; }
-
 bool units_differ(std::vector<JointDiagnosis> const& joints) {
   return std::any_of(joints.begin(), joints.end(),
                      [&](auto const& joint) { return joint.unit_torque != joints.front().unit_torque; });
-}
-
-// torque energy of the rows that validation_error() is of
-double energy_of(JointDiagnosis const& joint) {
-  return are_all_rows(joint) ? joint.validation_torque_energy : joint.validation_left_out.torque_energy;
 }
 
 }  // namespace
@@ -33,14 +24,10 @@ std::string ErrorPair::text() const {
   return has_after ? fmt::format("{} -> {}", percent_text(before), percent_text(after)) : percent_text(before);
 }
 
-ErrorPair training_error(JointDiagnosis const& joint) {
-  return are_all_rows(joint) ? ErrorPair{joint.train_relerr, joint.augmented_train_relerr}
-                             : over_all(joint.train_left_out);
-}
+ErrorPair training_error(JointDiagnosis const& joint) { return {joint.train_relerr, joint.augmented_train_relerr}; }
 
 ErrorPair validation_error(JointDiagnosis const& joint) {
-  return are_all_rows(joint) ? ErrorPair{joint.validation_relerr, joint.augmented_validation_relerr}
-                             : over_all(joint.validation_left_out);
+  return {joint.validation_relerr, joint.augmented_validation_relerr};
 }
 
 ArmError validation_error_of_arm(std::vector<JointDiagnosis> const& joints) {
@@ -49,7 +36,7 @@ ArmError validation_error_of_arm(std::vector<JointDiagnosis> const& joints) {
   double energy = 0.0, before = 0.0, after = 0.0;
   for (auto const& joint : joints) {
     ErrorPair const error = validation_error(joint);
-    double const weight = whole.is_mean_of_joints ? 1.0 : energy_of(joint);
+    double const weight = whole.is_mean_of_joints ? 1.0 : joint.validation_torque_energy;
     if (!error.is_known() || !std::isfinite(weight)) continue;
     double const now = std::isfinite(error.after) ? error.after : error.before;
     energy += weight;

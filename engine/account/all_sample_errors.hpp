@@ -1,7 +1,7 @@
 #pragma once
 // Errors of a diagnosis over all samples, of a joint and of an arm: before and after what was named.
 //
-// Joint      NaN where only the rows that were fitted are known: a diagnosis that was given up early
+// Joint      NaN where no error is known: a diagnosis that was given up early
 // Arm        of the validation recordings: the root of all joints' residual energy over their torques' energy. Joints
 //            that turn and joints that slide have no common energy: then the root of the mean square of their errors
 // Threads    pure functions
@@ -20,7 +20,6 @@ struct ErrorPair {
   std::string text() const;  // "13.1 % -> 10.4 %"
 };
 
-// decided on all samples: these are the joint's own errors; else those over all rows beside them
 ErrorPair training_error(JointDiagnosis const& joint);
 ErrorPair validation_error(JointDiagnosis const& joint);
 

@@ -33,28 +33,13 @@ Candidate const* surest_refused(JointDiagnosis const& joint) {
 
 }  // namespace
 
-std::string left_out_clause(LeftOut const& left_out) {
-  if (!(left_out.time > 0.0) || !std::isfinite(left_out.energy)) return "";
-  std::string errors = percent_text(left_out.relerr);
-  if (std::isfinite(left_out.augmented_relerr) && left_out.augmented_relerr != left_out.relerr)
-    errors += " to " + percent_text(left_out.augmented_relerr);
-  return fmt::format(
-      "{} of the time with {} of the residual's energy, near reversals, at rest or outside the motion of training, is "
-      "left out of that; "
-      "with it the error is {}",
-      percent_text(left_out.time), percent_text(left_out.energy), errors);
-}
-
 std::string gain_sentence(JointDiagnosis const& joint) {
   bool const validation = std::isfinite(joint.validation_relerr) && std::isfinite(joint.augmented_validation_relerr);
   double const before = validation ? joint.validation_relerr : joint.cv_relerr;
   double const after = validation ? joint.augmented_validation_relerr : joint.augmented_cv_relerr;
   if (!std::isfinite(before) || !std::isfinite(after)) return "";
-  std::string const text = fmt::format("{} error {} to {}", validation ? "Validation" : "Cross-validated",
-                                       percent_text(before), percent_text(after));
-  std::string left_out = left_out_clause(validation ? joint.validation_left_out : joint.train_left_out);
-  if (!left_out.empty() && !validation) left_out += " in training";
-  return text + (left_out.empty() ? "" : "; " + left_out) + ".";
+  return fmt::format("{} error {} to {}.", validation ? "Validation" : "Cross-validated", percent_text(before),
+                     percent_text(after));
 }
 
 std::string validation_is_other_sentence(JointDiagnosis const& joint) {

@@ -12,10 +12,6 @@
 
 namespace torquescope {
 
-// What the mask leaves out, and the error with it: "71 % of the time with 98 % of the residual's energy, near reversals
-// and rests, is left out of that; with it the relerr is 38 % to 46 %"; "" where nothing is left out or it is not known
-std::string left_out_clause(LeftOut const& left_out);
-
 // "Validation error 12.1 % to 6.2 %."; from cross-validation where no validation was recorded
 std::string gain_sentence(JointDiagnosis const& joint);
 

@@ -218,20 +218,8 @@ std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
   return text;
 }
 
-// an error and what is left out of it; "" where nothing is
-std::string left_out_sentence(std::string const& rows, double relerr, LeftOut const& left_out) {
-  std::string const clause = left_out_clause(left_out);
-  if (clause.empty() || !std::isfinite(relerr)) return "";
-  return fmt::format("{} error {}; {}.", rows, percent_text(relerr), clause);
-}
-
 std::string none_reason(JointDiagnosis const& joint) {
-  std::string text;
-  if (looks_at_less_than_half(joint))
-    text = "Only the rows that were looked at are meant, which hold less than half of the residual's energy.";
-  append(text, likeness_sentence(joint));
-  append(text, left_out_sentence("Training", joint.train_relerr, joint.train_left_out));
-  append(text, left_out_sentence("Validation", joint.validation_relerr, joint.validation_left_out));
+  std::string text = likeness_sentence(joint);
   append(text, joint.power_sentence);
   return text;
 }

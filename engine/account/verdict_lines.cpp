@@ -220,28 +220,12 @@ std::string both_text(ErrorPair const& training, ErrorPair const& validation) {
   return text;
 }
 
-// "on rows that move one way, 65 % of training and 70 % of validation"
-std::string rows_phrase(JointDiagnosis const& joint) {
-  std::string text = joint.rows == ErrorRows::in_motion ? "on rows in motion" : "on rows that move one way";
-  std::vector<std::string> shares;
-  auto const share = [&](char const* of, LeftOut const& left_out) {
-    if (std::isfinite(left_out.time)) shares.push_back(percent_text(1.0 - left_out.time) + of);
-  };
-  share(" of training", joint.train_left_out);
-  share(" of validation", joint.validation_left_out);
-  return shares.empty() ? text : text + ", " + name_list(shares, "and");
-}
-
 }  // namespace
 
 VerdictLines verdict_lines(Diagnosis const& diagnosis, JointDiagnosis const& joint, Verdict verdict) {
-  VerdictLines lines{what_of(diagnosis, joint, verdict), {}, {}, {}};
+  VerdictLines lines{what_of(diagnosis, joint, verdict), {}, {}};
   std::string const all = both_text(training_error(joint), validation_error(joint));
-  std::string const of_rows = both_text({joint.train_relerr, joint.augmented_train_relerr},
-                                        {joint.validation_relerr, joint.augmented_validation_relerr});
-  bool const are_all = joint.rows == ErrorRows::all || (joint.train_left_out.time == 0.0 && all == of_rows);
   if (!all.empty()) lines.errors = "error, all samples: " + all;
-  if (!are_all && !of_rows.empty()) lines.rows = fmt::format("error {}: {}", rows_phrase(joint), of_rows);
   bool const is_of_arm = diagnosis.joints.size() > 1;
   if (!is_of_arm && !diagnosis.way_out.empty()) lines.remarks.push_back(diagnosis.way_out);
   std::string const of_validation =

@@ -4,7 +4,6 @@
 // What       "Stribeck friction 0.11 N m [0.10, 0.12], stribeck_speed 0.08 rad/s [0.07, 0.09]   p < 0.005"; of a class
 //            its members, strongest first, three at most; where nothing is named, what the residual looks like
 // Errors     "error, all samples: training 13.1 -> 10.4 %, validation 13.1 -> 10.4 %": before and after
-// Rows       the same of rows that move one way, with their shares of the time, where a verdict rests on those
 // Units      of the parameters, as the joint has them
 // Threads    pure functions
 
@@ -18,7 +17,6 @@ namespace torquescope {
 struct VerdictLines {
   std::string what;
   std::string errors;                // "" where none was measured
-  std::string rows;                  // errors on a part of the time; "" where all samples decide
   std::vector<std::string> remarks;  // what was done to the channels; that a validation recording is of another kind
 };
 

@@ -70,7 +70,6 @@ class JointWork {
     joint_.unit_torque = in_torque_unit(revolute ? "N m" : "N", input.train.torque_unit);
     joint_.joint = input.joint;
     joint_.name = input.joint_name;
-    joint_.rows = ErrorRows::all;
     diagnosis_.seed = input.seed;
     diagnosis_.q = input.numbers.alpha;
   }

@@ -232,7 +232,6 @@ JointDiagnosis invented_joint() {
   joint.nuisances = {"offset", "phase of cogging"};
   joint.traces = {invented_trace()};
   joint.forward = {{"invented_unseen.csv", 0.0124, 0.0031, 0.57, 1.5e-5}};
-  joint.rows = ErrorRows::in_motion;
   joint.replicates = 200;
   joint.omnibus_p = 1.0 / 201.0;
   joint.mismatch_rms = 0.104;

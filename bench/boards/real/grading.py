@@ -31,8 +31,6 @@ class Said:
     rows: str = ""  # "unseen", "cross-validated": what the errors are of
     before: float | None = None  # relative errors of the baseline, of the model with its names
     after: float | None = None
-    time_left_out: float | None = None  # shares, of the rows that errors are of
-    energy_left_out: float | None = None
     explained: float | None = None  # share of what is missing on held-out rows, by its names
 
 
@@ -42,10 +40,9 @@ def said_of(document, screen=""):
     if not joints or "verdict" not in document:
         return Said(text=screen.strip())
     joint = joints[0]
-    baseline, augmented, left_out = joint["baseline"], joint.get("augmented") or {}, joint.get("left_out") or {}
+    baseline, augmented = joint["baseline"], joint.get("augmented") or {}
     validation = baseline.get("validation_relerr") is not None
     error = "validation_relerr" if validation else "cv_relerr"
-    rows = left_out.get("validation" if validation else "train") or {}
     return Said(
         verdict=document["verdict"],
         effects=tuple(joint.get("effects") or ()),
@@ -53,8 +50,6 @@ def said_of(document, screen=""):
         rows="unseen" if validation else "cross-validated" if baseline.get(error) is not None else "",
         before=baseline.get(error),
         after=augmented.get(error),
-        time_left_out=rows.get("time_share"),
-        energy_left_out=rows.get("energy_share"),
         explained=(joint.get("explained") or {}).get("share"),  # absent in earlier documents
     )
 

@@ -96,8 +96,7 @@ class Runs:
             "verdict": said.verdict,
             "names": [{"name": one["name"], "equivalent": one.get("equivalent") or []}
                       for one in grading.names_of(said)],
-            **{key: getattr(said, key)
-               for key in ("rows", "before", "after", "time_left_out", "energy_left_out", "explained")},
+            **{key: getattr(said, key) for key in ("rows", "before", "after", "explained")},
             "grade": grade,
             "why": why,
             "truth": answer.truth if answer else "",
@@ -122,10 +121,6 @@ def percent(share):
     return "-" if share is None else f"{100 * share:.1f}"
 
 
-def looked_at(left_out):
-    return None if left_out is None else 1.0 - left_out
-
-
 def explained(row):
     """Share of what is missing that the names explain."""
     return "-" if row["explained"] is None else f"{100 * row['explained']:.0f}"
@@ -135,18 +130,16 @@ def line(row):
     """As a line of the terminal."""
     names = "; ".join(one["name"] + (f" [{'|'.join(one['equivalent'])}]" if one["equivalent"] else "")
                       for one in row["names"])
-    seen = "/".join(percent(looked_at(row[key])) for key in ("time_left_out", "energy_left_out"))
     why = f" ({row['why']})" if row["why"] else ""
     rows = {"unseen": "unseen", "cross-validated": "CV"}.get(row["rows"], "-")
     return (f"{row['case']:22} {(row['grade'] or '-'):10} {row['verdict']:12} {rows:6} {percent(row['before']):>7} "
-            f"{percent(row['after']):>7} {seen:>13} {explained(row):>14}  "
-            f"{row['seconds']:6.0f}  {names or '-'}{why}")
+            f"{percent(row['after']):>7} {explained(row):>12}  {row['seconds']:6.0f}  {names or '-'}{why}")
 
 
 def head():
     return (f"{'recording':22} {'grade':10} {'verdict':12} {'rows':6} {'before':>7} {'after':>7} "
-            f"{'looked at':>13} {'explained':>14}  {'s':>6}  names\n"
-            f"{'':53} {'% of the torque':>15} {'% rows/energy':>13} {'% of missing':>14}")
+            f"{'explained':>12}  {'s':>6}  names\n"
+            f"{'':53} {'% of the torque':>15} {'% of missing':>12}")
 
 
 def cases_of(folder, known, only):

@@ -101,15 +101,12 @@ class Grading(unittest.TestCase):
 class Said(unittest.TestCase):
     def test_errors_are_those_of_validation_recordings_else_cross_validated(self):
         joint = {"effects": [], "baseline": {"validation_relerr": 0.3, "cv_relerr": 0.2},
-                 "augmented": {"validation_relerr": 0.25, "cv_relerr": 0.1},
-                 "left_out": {"train": {"time_share": 0.7, "energy_share": 0.8},
-                              "validation": {"time_share": 0.6, "energy_share": 0.9}}}
+                 "augmented": {"validation_relerr": 0.25, "cv_relerr": 0.1}}
         one = grading.said_of({"verdict": "none", "joints": [joint]})
-        self.assertEqual((one.rows, one.before, one.after, one.time_left_out, one.energy_left_out),
-                         ("unseen", 0.3, 0.25, 0.6, 0.9))
+        self.assertEqual((one.rows, one.before, one.after), ("unseen", 0.3, 0.25))
         joint["baseline"]["validation_relerr"] = None
         one = grading.said_of({"verdict": "none", "joints": [joint]})
-        self.assertEqual((one.rows, one.before, one.after, one.time_left_out), ("cross-validated", 0.2, 0.1, 0.7))
+        self.assertEqual((one.rows, one.before, one.after), ("cross-validated", 0.2, 0.1))
 
     def test_the_share_that_is_explained_may_be_unknown_or_absent(self):
         joint = {"effects": [], "baseline": {}, "explained": {"share": 0.71}}

@@ -64,10 +64,6 @@ void print_baseline(Session const& session, Diagnosis const& diagnosis) {
         fmt::format("{}{} parameters; error {} train", whose, joint.baseline.size(), percent_text(joint.train_relerr));
     if (std::isfinite(joint.validation_relerr))
       line += fmt::format(", {} validation", percent_text(joint.validation_relerr));
-    LeftOut const& left_out = std::isfinite(joint.validation_relerr) ? joint.validation_left_out : joint.train_left_out;
-    if (left_out.time > 0.0)
-      line += fmt::format("; {} over all rows, of which {} with {} of the residual's energy are left out",
-                          percent_text(left_out.relerr), percent_text(left_out.time), percent_text(left_out.energy));
     session.note(session.topic_line("baseline", line));
   }
 }
@@ -224,8 +220,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   DiagnosisEstimate const estimate = estimate_diagnosis(size, request.threads.count);
   request.expected_seconds = estimate.seconds;
   session.note(session.topic_line("size", estimate_words(size, estimate)));
-  if (auto const fewer = many_rows_warning(experiment.parts()))
-    session.note(session.topic_line("warning", *fewer));
+  if (auto const fewer = many_rows_warning(experiment.parts())) session.note(session.topic_line("warning", *fewer));
   Diagnosis const diagnosis = [&] {
     SessionProgress print_progress(session);
     return diagnose_work(experiment, request, [&](ProgressUpdate const& update) {

@@ -95,16 +95,6 @@ std::string interval_text(ParameterEstimate const& one) {
   return value + " +- " + two_digits(half);
 }
 
-// errors over all rows, and what the others leave out
-void add_left_out(TextTable& table, std::string const& where, LeftOut const& left_out) {
-  if (!(left_out.time > 0.0)) return;
-  table.row({"error, " + where + ", all rows", "", share_cell(left_out.relerr), share_cell(left_out.augmented_relerr)});
-  table.row({"left out, " + where, "",
-             fmt::format("{} of the time, {} of the residual's energy", share_cell(left_out.time),
-                         share_cell(left_out.energy)),
-             ""});
-}
-
 ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& parameters, std::string const& name) {
   auto const found = std::find_if(parameters.begin(), parameters.end(),
                                   [&](ParameterEstimate const& one) { return one.name == name; });
@@ -115,18 +105,15 @@ ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& pa
 
 namespace {
 
-std::string mark_of(Verdict verdict, std::string const& more, bool utf8, Ink const& ink, std::string const& whose) {
+std::string mark_of(Verdict verdict, bool utf8, Ink const& ink, std::string const& whose) {
   VerdictWords const words = words_of(verdict);
   std::string const lead =
-      fmt::format("{} {}{}{}", utf8 ? words.mark : "*", whose.empty() ? "" : whose + "  ", words.word, more);
+      fmt::format("{} {}{}", utf8 ? words.mark : "*", whose.empty() ? "" : whose + "  ", words.word);
   return needs_care(verdict) ? ink.warning(lead) : ink.bold(lead);
 }
 
 std::string mark_of(JointDiagnosis const& joint, Verdict verdict, bool utf8, Ink const& ink, std::string const& whose) {
-  // rows that hold less than half of the residual's energy say nothing of the rest
-  bool const is_bounded = verdict == Verdict::none && looks_at_less_than_half(joint);
-  return mark_of(verdict, is_bounded ? " ON THE ROWS LOOKED AT" : "", utf8, ink, whose) +
-         (has_fault(joint, verdict) ? ink.warning(" + DATA FAULT") : "");
+  return mark_of(verdict, utf8, ink, whose) + (has_fault(joint, verdict) ? ink.warning(" + DATA FAULT") : "");
 }
 
 // a number stays with its percent sign, a p with its value: wrap() breaks at spaces only
@@ -140,7 +127,6 @@ std::string lines_text(std::string const& lead, VerdictLines const& lines) {
   std::string const indent = "    ";
   std::string text = line_text(lead + "  ", lines.what);
   if (!lines.errors.empty()) text += line_text(indent, lines.errors);
-  if (!lines.rows.empty()) text += line_text(indent, lines.rows);
   for (auto const& remark : lines.remarks) text += line_text(indent, remark);
   return text;
 }
@@ -158,7 +144,7 @@ bool is_arm(Diagnosis const& diagnosis) { return diagnosis.joints.size() > 1; }
 std::string arm_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
   VerdictLines lines = arm_lines(diagnosis);
   if (lines.what.empty()) lines.what = printable(diagnosis.finding);
-  std::string text = lines_text(mark_of(diagnosis.verdict, "", utf8, ink, "whole arm"), lines);
+  std::string text = lines_text(mark_of(diagnosis.verdict, utf8, ink, "whole arm"), lines);
   for (JointDiagnosis const* joint : by_weight(diagnosis.joints)) {
     text += lines_text(mark_of(*joint, joint->verdict, utf8, ink, which_joint(*joint)),
                        verdict_lines(diagnosis, *joint, joint->verdict));
@@ -172,8 +158,7 @@ std::string arm_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
 
 std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
   if (is_arm(diagnosis)) return arm_text(diagnosis, utf8, ink);
-  if (diagnosis.joints.empty())
-    return line_text(mark_of(diagnosis.verdict, "", utf8, ink, "") + "  ", diagnosis.reason);
+  if (diagnosis.joints.empty()) return line_text(mark_of(diagnosis.verdict, utf8, ink, "") + "  ", diagnosis.reason);
   JointDiagnosis const& joint = diagnosis.joints.front();
   return lines_text(mark_of(joint, diagnosis.verdict, utf8, ink, ""),
                     verdict_lines(diagnosis, joint, diagnosis.verdict));
@@ -225,8 +210,6 @@ std::string diagnosed_model_text(Diagnosis const& diagnosis, Ink const& ink) {
     table.row({"error, train", "", share_cell(joint.train_relerr), share_cell(joint.augmented_train_relerr)});
     table.row(
         {"error, validation", "", share_cell(joint.validation_relerr), share_cell(joint.augmented_validation_relerr)});
-    add_left_out(table, "train", joint.train_left_out);
-    add_left_out(table, "validation", joint.validation_left_out);
     std::string const explained = share_text(joint.explained_share);
     if (!explained.empty()) table.row({"explained, held-out rows", "", "", explained});
     text += ink.bold(fmt::format("model of {} (+- 95 %)", which_joint(joint))) + "\n" + table.text(page_width());

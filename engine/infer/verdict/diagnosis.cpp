@@ -27,24 +27,6 @@ std::string word(Verdict verdict) {
   return {};
 }
 
-std::string word(ErrorRows rows) {
-  switch (rows) {
-    case ErrorRows::one_way:
-      return "moving one way";
-    case ErrorRows::in_motion:
-      return "with reversals";
-    case ErrorRows::all:
-      return "all";
-  }
-  return {};
-}
-
-ErrorRows error_rows_called(std::string_view text) {
-  for (ErrorRows const rows : {ErrorRows::in_motion, ErrorRows::all})
-    if (text == word(rows)) return rows;
-  return ErrorRows::one_way;
-}
-
 bool names_physics(Verdict verdict) {
   return verdict == Verdict::named || verdict == Verdict::one_of_class || verdict == Verdict::partly;
 }
@@ -91,11 +73,6 @@ bool is_fault(NamedEffect const& effect) {
 
 std::string which_joint(JointDiagnosis const& joint) {
   return joint.name.empty() ? "joint " + std::to_string(joint.joint) : "the joint of " + joint.name;
-}
-
-bool looks_at_less_than_half(JointDiagnosis const& joint) {
-  constexpr double half = 0.5;
-  return joint.train_left_out.energy > half || joint.validation_left_out.energy > half;
 }
 
 Verdict verdict_of_arm(std::vector<JointDiagnosis> const& joints, std::vector<NamedEffect> const& of_the_arm) {

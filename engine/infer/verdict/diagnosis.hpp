@@ -3,8 +3,7 @@
 //
 // Units      SI of the joint's kind; each parameter and axis names its unit. Shares are fractions of 1
 // Unknown    NaN: not measured (no validation recording, no repeated laps, no reference to simulate with)
-// relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated moving rows (reversal_mask.hpp), or all but rests
-//            where `rows` says so
+// relerr     ||tau - tau_hat|| / ||tau|| on the filtered rows of all samples
 // Threads    plain records
 // Source     decision/THEORY.md, Adequacy; as JSON: workflows/results/diagnosis_json.hpp; as HDF5:
 //            store/RESULT_FORMAT.md
@@ -15,7 +14,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,11 +28,6 @@ enum class Verdict { none, named, one_of_class, partly, unexplained, insufficien
 std::string word(Verdict verdict);  // "class" for one_of_class
 // whether accepted effects stand as missing physics, all of it or a part
 bool names_physics(Verdict verdict);
-
-// rows that errors and pictures are of: without reversals and rests; without rests; every one
-enum class ErrorRows { one_way, in_motion, all };
-std::string word(ErrorRows rows);                    // as files have it: "moving one way", "with reversals", "all"
-ErrorRows error_rows_called(std::string_view word);  // any other word: one_way, as in older files
 
 struct ParameterEstimate {
   std::string name;
@@ -169,13 +162,6 @@ struct ForwardSimulation {
   double encoder_step = 0.0;
 };
 
-// what the mask leaves out of an error, and the error over all rows
-struct LeftOut {
-  double time = unknown, energy = unknown;              // shares; energy: of the baseline's residual over all rows
-  double relerr = unknown, augmented_relerr = unknown;  // over all rows
-  double torque_energy = unknown;                       // of all rows
-};
-
 // what effects took from the fitted baseline (JointScales); of results before 27 Nov 2026 unknown
 struct EffectLevels {
   double forward = unknown, backward = unknown;  // friction_sign() of either direction
@@ -197,7 +183,6 @@ struct JointDiagnosis {
   EffectLevels effect_levels{};
   double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
   double validation_torque_energy = unknown;  // of the rows that validation_relerr is of
-  LeftOut train_left_out{}, validation_left_out{};
   double explained_share = unknown;  // of the mismatch's energy on held-out rows, what the accepted effects explain
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
@@ -207,7 +192,6 @@ struct JointDiagnosis {
   std::vector<TorqueTrace> traces{};     // the validation recordings, else the training ones
   std::vector<ForwardSimulation> forward{};
   // how it was found
-  ErrorRows rows = ErrorRows::one_way;
   std::vector<std::string> remarks{};  // what the motion closed or merged: sentences, in the reason, not stored
   std::string timing_sentence{};       // what was done to the torque channel's time; in the reason
   std::size_t replicates = 0;
@@ -227,8 +211,6 @@ inline double least_p(std::size_t replicates) {
 
 // "joint 1", or "the joint of q5_rad" where its position column is known
 std::string which_joint(JointDiagnosis const& joint);
-// whether the rows that were looked at hold less than half of the residual's energy, in training or validation
-bool looks_at_less_than_half(JointDiagnosis const& joint);
 
 // of an arm: effects that act on several joints at once
 struct WholeArmDiagnosis {

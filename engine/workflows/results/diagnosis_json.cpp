@@ -82,13 +82,6 @@ Json advice_json(ExcitationAdvice const& advice) {
   return {{"lacks", advice.lacks}, {"would_separate", advice.would_separate}};
 }
 
-Json left_out_json(LeftOut const& left_out) {
-  return {{"time_share", json_number(left_out.time)},
-          {"energy_share", json_number(left_out.energy)},
-          {"relerr_all_rows", json_number(left_out.relerr)},
-          {"augmented_relerr_all_rows", json_number(left_out.augmented_relerr)}};
-}
-
 Json decision_effect_json(DecisionAccount::Effect const& effect) {
   Json shape = Json::array();
   for (double const one : effect.shape) shape.push_back(json_number(one));
@@ -149,31 +142,28 @@ Json joint_json(JointDiagnosis const& joint) {
   Json made = {{"joint", joint.joint}, {"name", joint.name}};
   // of an arm, whose joints have verdicts of their own
   if (!joint.reason.empty()) made.update({{"verdict", word(joint.verdict)}, {"reason", joint.reason}});
-  made.update(
-      {{"twins", joint.replicates},
-       {"baseline",
-        {{"parameters", json_list(joint.baseline, parameter_json)},
-         {"train_relerr", json_number(joint.train_relerr)},
-         {"validation_relerr", json_number(joint.validation_relerr)},
-         {"cv_relerr", json_number(joint.cv_relerr)}}},
-       {"mismatch", mismatch},
-       {"effects", json_list(joint.effects, effect)},
-       {"candidates", json_list(joint.candidates, candidate)},
-       {"augmented",
-        {{"train_relerr", json_number(joint.augmented_train_relerr)},
-         {"validation_relerr", json_number(joint.augmented_validation_relerr)},
-         {"cv_relerr", json_number(joint.augmented_cv_relerr)},
-         {"parameters", json_list(joint.augmented, parameter_json)}}},
-       {"left_out",
-        {{"train", left_out_json(joint.train_left_out)}, {"validation", left_out_json(joint.validation_left_out)}}},
-       {"explained", {{"share", json_number(joint.explained_share)}}},
-       {"budget",
-        {{"parameter_error", json_number(joint.budget.parameter_error)},
-         {"missing_physics", json_number(joint.budget.missing_physics)},
-         {"unexplained", json_number(joint.budget.unexplained)},
-         {"noise", json_number(joint.budget.noise)}}},
-       {"unexplained", json_list(joint.unexplained, unexplained_json)},
-       {"excitation", json_list(joint.excitation, advice_json)}});
+  made.update({{"twins", joint.replicates},
+               {"baseline",
+                {{"parameters", json_list(joint.baseline, parameter_json)},
+                 {"train_relerr", json_number(joint.train_relerr)},
+                 {"validation_relerr", json_number(joint.validation_relerr)},
+                 {"cv_relerr", json_number(joint.cv_relerr)}}},
+               {"mismatch", mismatch},
+               {"effects", json_list(joint.effects, effect)},
+               {"candidates", json_list(joint.candidates, candidate)},
+               {"augmented",
+                {{"train_relerr", json_number(joint.augmented_train_relerr)},
+                 {"validation_relerr", json_number(joint.augmented_validation_relerr)},
+                 {"cv_relerr", json_number(joint.augmented_cv_relerr)},
+                 {"parameters", json_list(joint.augmented, parameter_json)}}},
+               {"explained", {{"share", json_number(joint.explained_share)}}},
+               {"budget",
+                {{"parameter_error", json_number(joint.budget.parameter_error)},
+                 {"missing_physics", json_number(joint.budget.missing_physics)},
+                 {"unexplained", json_number(joint.budget.unexplained)},
+                 {"noise", json_number(joint.budget.noise)}}},
+               {"unexplained", json_list(joint.unexplained, unexplained_json)},
+               {"excitation", json_list(joint.excitation, advice_json)}});
   if (joint.decision) made["decision"] = decision_json(*joint.decision);
   return made;
 }

@@ -1,7 +1,10 @@
 #include "engine/workflows/results/diagnosis_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "engine/experiment/stored_objects.hpp"
 
@@ -10,6 +13,17 @@ namespace torquescope {
 namespace {
 
 constexpr char root[] = "/diagnosis";
+
+// Version 0.1 had errors of other rows: they would be told as those of all samples. A joint without an error (given up
+// before its first fit) has none of other rows, whatever its word
+void refuse_other_rows(ResultReader const& reader, StoredObjects const& in, std::string const& joint) {
+  std::string const rows = in.text(joint, "rows");
+  if (rows == "all" || !std::isfinite(in.number(joint, "train_relerr"))) return;
+  Problem problem{ExitCode::bad_data, fmt::format("the errors of {} are of rows {}: it was made by Torquescope 0.1",
+                                                  reader.name().string(), rows.empty() ? "moving one way" : rows)};
+  problem.help = "delete it and run torquescope diagnose again with the job";
+  throw Error(problem);
+}
 
 AxisInterval read_interval(StoredObjects const& in, std::string const& group, std::string const& name) {
   return {in.text(group, name + "_axis"), in.number(group, name + "_from"), in.number(group, name + "_to"),
@@ -166,20 +180,12 @@ void read_joint_attributes(StoredObjects const& in, std::string const& group, Jo
   joint.augmented_train_relerr = in.number(group, "augmented_train_relerr");
   joint.augmented_validation_relerr = in.number(group, "augmented_validation_relerr");
   joint.augmented_cv_relerr = in.number(group, "augmented_cv_relerr");
-  auto const left_out = [&](std::string const& name) -> LeftOut {
-    return {in.number(group, name + "_left_out_time"), in.number(group, name + "_left_out_energy"),
-            in.number(group, name + "_relerr_all_rows"), in.number(group, "augmented_" + name + "_relerr_all_rows"),
-            in.number(group, name + "_torque_energy_all_rows")};
-  };
-  joint.train_left_out = left_out("train");
-  joint.validation_left_out = left_out("validation");
   joint.explained_share = in.number(group, "explained_share");
   joint.effect_levels = {in.number(group, "friction_sign_forward"), in.number(group, "friction_sign_backward"),
                          in.number(group, "baseline_inertia")};
   joint.budget = {in.number(group, "budget_parameter_error"), in.number(group, "budget_missing_physics"),
                   in.number(group, "budget_unexplained"), in.number(group, "budget_noise")};
   joint.nuisances = in.texts(group, "nuisances");
-  joint.rows = error_rows_called(in.text(group, "rows"));
   joint.replicates = static_cast<std::size_t>(std::max<std::int64_t>(0, in.whole(group, "twins")));
   joint.omnibus_p = in.number(group, "omnibus_p");
   joint.mismatch_rms = in.number(group, "mismatch_rms");
@@ -229,7 +235,10 @@ Diagnosis read_diagnosis(ResultReader const& reader) {
   diagnosis.way_out = in.text(root, "way_out");
   diagnosis.seed = static_cast<std::uint64_t>(in.whole(root, "seed"));
   diagnosis.q = in.number(root, "q");
-  for (auto const& group : in.numbered(root, "joint")) diagnosis.joints.push_back(read_joint(in, group));
+  for (auto const& group : in.numbered(root, "joint")) {
+    refuse_other_rows(reader, in, group);
+    diagnosis.joints.push_back(read_joint(in, group));
+  }
   read_verdicts(in, diagnosis);
   std::string const arm = std::string(root) + "/arm";
   if (in.exists(arm)) {

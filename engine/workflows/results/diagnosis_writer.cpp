@@ -200,15 +200,6 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "augmented_train_relerr", joint.augmented_train_relerr);
   writer.attribute(group, "augmented_validation_relerr", joint.augmented_validation_relerr);
   writer.attribute(group, "augmented_cv_relerr", joint.augmented_cv_relerr);
-  auto const write_left_out = [&](std::string const& name, LeftOut const& left_out) {
-    writer.attribute(group, name + "_left_out_time", left_out.time);
-    writer.attribute(group, name + "_left_out_energy", left_out.energy);
-    writer.attribute(group, name + "_relerr_all_rows", left_out.relerr);
-    writer.attribute(group, "augmented_" + name + "_relerr_all_rows", left_out.augmented_relerr);
-    writer.attribute(group, name + "_torque_energy_all_rows", left_out.torque_energy);
-  };
-  write_left_out("train", joint.train_left_out);
-  write_left_out("validation", joint.validation_left_out);
   writer.attribute(group, "explained_share", joint.explained_share);
   writer.attribute(group, "friction_sign_forward", joint.effect_levels.forward);
   writer.attribute(group, "friction_sign_backward", joint.effect_levels.backward);
@@ -218,7 +209,7 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "budget_unexplained", joint.budget.unexplained);
   writer.attribute(group, "budget_noise", joint.budget.noise);
   text_list(writer, group, "nuisances", joint.nuisances);
-  writer.attribute(group, "rows", word(joint.rows));
+  writer.attribute(group, "rows", std::string("all"));  // what errors are of, for readers: version 0.1 had other rows
   writer.attribute(group, "twins", static_cast<std::int64_t>(joint.replicates));
   writer.attribute(group, "omnibus_p", joint.omnibus_p);
   writer.attribute(group, "mismatch_rms", joint.mismatch_rms);

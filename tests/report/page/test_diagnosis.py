@@ -9,6 +9,7 @@ import types
 import unittest
 
 import support
+from torquescope.errors import DataError
 from torquescope.page import build, diagnosed
 import h5py
 import numpy as np
@@ -56,6 +57,35 @@ class HostileVerdict(unittest.TestCase):
         self.assertNotIn("alert(1)</script>", page.replace("\\u003c", ""))
         kept = re.search(r'id="verdict-json">(.*?)</script>', page, flags=re.S)[1]
         self.assertEqual(json.loads(kept)["reason"], HOSTILE_WORDS)
+
+
+class OtherRows(unittest.TestCase):
+    """Errors of Torquescope 0.1 are not of all samples."""
+
+    def read(self, **attributes):
+        with h5py.File(support.FOLDER / "R.h5", "w") as file:
+            file.attrs.update({"format": 3, "creator": "torquescope 0.1", "complete": 1})
+            file.create_group("diagnosis").attrs.update({"joints": 1, "seed": 7, "q": 0.05})
+            file.create_group("diagnosis/joint_1").attrs.update(attributes)
+        with Result(support.FOLDER / "R.h5", is_ours=True) as result:
+            return result.diagnosis.joints[0]
+
+    def test_they_are_refused_with_the_way_out(self):
+        for rows in ({"rows": "moving one way"}, {"rows": "with reversals"}, {}):
+            with self.assertRaises(DataError) as refused:
+                self.read(train_relerr=0.12, **rows)
+            of = rows.get("rows", "moving one way")
+            self.assertTrue(str(refused.exception).endswith(
+                f"R.h5 are of rows {of}: it was made by Torquescope 0.1; delete it and run torquescope diagnose again "
+                "with the job"), refused.exception)
+
+    def test_a_joint_without_errors_is_read_whatever_its_rows(self):
+        for rows in ({"rows": "all"}, {"rows": "moving one way"}, {}):
+            self.assertTrue(math.isnan(self.read(train_relerr=math.nan, **rows).train_relerr))
+        self.assertTrue(math.isnan(self.read().train_relerr))
+
+    def test_errors_of_all_samples_are_read(self):
+        self.assertEqual(self.read(train_relerr=0.12, rows="all").train_relerr, 0.12)
 
 
 @support.needs_diagnoses
@@ -132,7 +162,7 @@ class Reader(unittest.TestCase):
             self.assertLessEqual(max(map(len, lines)), 100, kind)
         text = str(joint("named"))
         for words in ("<Joint 1", "named: stribeck, cogging>", "stribeck_speed",
-                      "error in validation, rows with reversals: 12.1 -> 6.23 %"):
+                      "error in validation, all samples: 12.1 -> 6.23 %"):
             self.assertIn(words, text)
         self.assertRegex(repr(diagnosis("named")), "^<Diagnosis: named: Stribeck friction 0.35 N m")
 
@@ -214,15 +244,10 @@ class Verdict(unittest.TestCase):
             self.assertTrue(words in read_by_a_person("partly"), words)
         self.assertFalse("What is left" in read_by_a_person("named"))
 
-    def test_errors_of_all_samples_stand_alone(self):
-        """No error of other rows is beside them."""
-        whole = dataclasses.replace(joint("named"), rows="moving one way", train_relerr_all_rows=0.2,
-                                    augmented_train_relerr_all_rows=0.15, validation_relerr_all_rows=0.3,
-                                    augmented_validation_relerr_all_rows=0.25)
-        self.assertEqual(words_of_diagnosis.big_numbers(whole),
-                         [("20 → 15 %", "", "error in training, all samples"),
-                          ("30 → 25 %", "", "error in validation, all samples"),
-                          ("0", "of 200", "simulated replicates look like this")])
+    def test_errors_are_of_all_samples(self):
+        self.assertEqual([caption for *_, caption in words_of_diagnosis.big_numbers(joint("named"))],
+                         ["error in training, all samples", "error in validation, all samples",
+                          "simulated replicates look like this"])
 
     def test_headlines_are_short(self):
         for kind in support.DIAGNOSES:
@@ -277,7 +302,7 @@ class Verdict(unittest.TestCase):
     def test_what_was_not_measured_is_left_out(self):
         self.assertEqual(
             words_of_diagnosis.big_numbers(joint("insufficient")),
-            [("12 %", "", "error in training, rows moving one way")],
+            [("12 %", "", "error in training, all samples")],
         )
         for kind in support.DIAGNOSES:
             found = re.findall(r"\b[nN][aA][nN]\b|\bNone\b|\binf\b", read_by_a_person(kind))

@@ -1,6 +1,5 @@
 """What the page says follows from the numbers of the file, and how it writes them."""
 
-import math
 import shutil
 import types
 import unittest
@@ -8,7 +7,7 @@ import unittest
 import h5py
 import numpy as np
 import support
-from torquescope.page import diagnosed, quantities as q, seed, tables, words, words_of_diagnosis
+from torquescope.page import quantities as q, seed, tables, words
 from torquescope.page.study import Study
 
 
@@ -121,27 +120,6 @@ class BesideThePaper(unittest.TestCase):
         self.assertEqual(
             [q.fixed(seed.largest_deviation(label), 3) for label in seed.TABLE_4], ["0.304", "0.298", "0.229"]
         )
-
-
-class LeftOut(unittest.TestCase):
-    def joint(self, **known):
-        named = ("left_out_time", "left_out_energy", "relerr_all_rows")
-        numbers = {f"{rows}_{name}": math.nan for rows in ("train", "validation") for name in named}
-        numbers |= {f"augmented_{rows}_relerr_all_rows": math.nan for rows in ("train", "validation")}
-        return types.SimpleNamespace(**(numbers | known))
-
-    def test_what_the_mask_leaves_out_is_told_beside_the_errors(self):
-        joint = self.joint(validation_left_out_time=0.71, validation_left_out_energy=0.98,
-                           validation_relerr_all_rows=0.46, augmented_validation_relerr_all_rows=0.42)
-        self.assertEqual(
-            words_of_diagnosis.left_out_note(joint),
-            "Left out of these errors near reversals, at rest or outside the motion of training, validation: 71 % of "
-            "the time with 98 % of the residual's energy; error over all rows 46 % before, 42 % after.")
-        self.assertTrue(diagnosed.looks_at_less_than_half(joint))
-
-    def test_nothing_is_told_where_nothing_is_left_out(self):
-        self.assertEqual(words_of_diagnosis.left_out_note(self.joint()), "")
-        self.assertFalse(diagnosed.looks_at_less_than_half(self.joint()))
 
 
 if __name__ == "__main__":

@@ -16,7 +16,6 @@ JointDiagnosis joint(int number, Verdict verdict, double before, double after = 
   joint.validation_relerr = before;
   joint.augmented_validation_relerr = after;
   joint.validation_torque_energy = 100.0;
-  joint.rows = ErrorRows::all;
   return joint;
 }
 

@@ -75,41 +75,5 @@ TEST(ReasonSentence, SaysWhateverTheVerdictThatTheValidationRecordingIsOfAnother
   }
 }
 
-TEST(LeftOutClause, TellsTimeEnergyAndTheErrorWithIt) {
-  LeftOut left_out{0.71, 0.98, 0.46, 0.38};
-  EXPECT_EQ(left_out_clause(left_out),
-            "71.0 % of the time with 98.0 % of the residual's energy, near reversals, at rest or outside the motion of "
-            "training, is left out of that; with it "
-            "the error is 46.0 % to 38.0 %");
-  left_out.augmented_relerr = unknown;
-  EXPECT_THAT(left_out_clause(left_out), ::testing::EndsWith("the error is 46.0 %"));
-  left_out.time = 0.0;
-  EXPECT_EQ(left_out_clause(left_out), "");
-  EXPECT_EQ(left_out_clause({}), "");
-}
-
-TEST(ReasonSentence, TellsWhatIsLeftOutBesideTheErrors) {
-  Diagnosis diagnosis = example::invented_diagnosis();
-  diagnosis.joints[0].validation_left_out = {0.12, 0.3, 0.2, 0.15};
-  EXPECT_THAT(reason_sentence(diagnosis),
-              HasSubstr("12.1 % to 6.2 %; 12.0 % of the time with 30.0 % of the residual's energy"));
-}
-
-// nothing is missing where it was looked, which is not everywhere
-TEST(ReasonSentence, OfNothingMissingSaysWhenLessThanHalfOfTheResidualWasLookedAt) {
-  Diagnosis diagnosis = example::invented_none();
-  JointDiagnosis& joint = diagnosis.joints[0];
-  joint.validation_left_out = {0.71, 0.98, 0.46, unknown};
-  EXPECT_THAT(reason_sentence(diagnosis),
-              ::testing::StartsWith("Only the rows that were looked at are meant, which hold less than half of the "
-                                    "residual's energy. The residual of joint 1"));
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("with it the error is 46.0 %"));
-  joint.validation_left_out.energy = 0.3;
-  EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("less than half")));
-  joint.validation_left_out = {};
-  joint.train_left_out = {0.71, 0.98, 0.46, unknown};
-  EXPECT_TRUE(looks_at_less_than_half(joint)) << "of training where nothing else was recorded";
-}
-
 }  // namespace error_words_test
 }  // namespace torquescope

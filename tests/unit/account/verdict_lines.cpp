@@ -1,4 +1,4 @@
-// A verdict in a few lines: names with numbers and intervals, errors over all samples, what else they are of.
+// A verdict in a few lines: names with numbers and intervals, errors over all samples.
 
 #include "engine/account/verdict_lines.hpp"
 
@@ -25,7 +25,6 @@ JointDiagnosis joint_with(std::vector<NamedEffect> effects) {
   joint.effects = std::move(effects);
   joint.train_relerr = 0.05;
   joint.augmented_train_relerr = 0.01;
-  joint.rows = ErrorRows::all;
   return joint;
 }
 
@@ -40,13 +39,6 @@ TEST(VerdictLines, SayNumbersWithIntervalsAndShortTimesInMilliseconds) {
             "Stribeck friction 0.35 A [0.24, 0.46], speed 0.080 rad/s [0.070, 0.090]; "
             "delay 3.8 ms [3.1, 4.4], p < 0.005");
   EXPECT_EQ(lines.errors, "error, all samples: training 5.0 % -> 1.0 %");
-  EXPECT_EQ(lines.rows, "");
-}
-
-TEST(ErrorRows, HaveTheWordsOfFilesAndOlderFilesTheFirst) {
-  for (ErrorRows const rows : {ErrorRows::one_way, ErrorRows::in_motion, ErrorRows::all})
-    EXPECT_EQ(error_rows_called(word(rows)), rows);
-  EXPECT_EQ(error_rows_called(""), ErrorRows::one_way);
 }
 
 TEST(VerdictLines, CountWavesInATurnAndSayNoIntervalThatDigitsHide) {
@@ -76,32 +68,22 @@ TEST(VerdictLines, ShowThreeMembersOfAClassAtMost) {
   EXPECT_THAT(lines.what, StartsWith("cogging 0.10 N m or torque ripple or transmission error or 2 more, p < 0.005"));
 }
 
-TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
+TEST(VerdictLines, PrintErrorsBeforeAndAfterWhereBothAreKnown) {
   JointDiagnosis joint = joint_with({effect_of("stribeck", "Stribeck friction")});
-  joint.rows = ErrorRows::one_way;
   joint.validation_relerr = 0.08;
   joint.augmented_validation_relerr = 0.02;
-  joint.train_left_out = {0.25, 0.8, 0.2, 0.18};
-  joint.validation_left_out = {0.35, 0.8, 0.13, 0.1};
-  VerdictLines const lines = verdict_lines({}, joint, Verdict::named);
-  EXPECT_EQ(lines.errors, "error, all samples: training 20.0 % -> 18.0 %, validation 13.0 % -> 10.0 %");
-  EXPECT_EQ(lines.rows,
-            "error on rows that move one way, 75.0 % of training and 65.0 % of validation: "
-            "training 5.0 % -> 1.0 %, validation 8.0 % -> 2.0 %");
-  joint.rows = ErrorRows::in_motion;
-  EXPECT_THAT(verdict_lines({}, joint, Verdict::named).rows, StartsWith("error on rows in motion, 75.0 %"));
+  EXPECT_EQ(verdict_lines({}, joint, Verdict::named).errors,
+            "error, all samples: training 5.0 % -> 1.0 %, validation 8.0 % -> 2.0 %");
+  joint.augmented_train_relerr = joint.validation_relerr = unknown;
+  EXPECT_EQ(verdict_lines({}, joint, Verdict::named).errors, "error, all samples: training 5.0 %");
 }
 
-TEST(VerdictLines, CallNoErrorOneOfAllSamplesThatIsNot) {
-  JointDiagnosis joint = joint_with({});
-  joint.rows = ErrorRows::one_way;
-  joint.augmented_train_relerr = unknown;
+TEST(VerdictLines, OfADiagnosisThatWasGivenUpSayWhyAndNoError) {
   Diagnosis given_up;
   given_up.finding = "the joint stands still";
-  VerdictLines const lines = verdict_lines(given_up, joint, Verdict::insufficient);
+  VerdictLines const lines = verdict_lines(given_up, {}, Verdict::insufficient);
   EXPECT_EQ(lines.what, "the joint stands still");
   EXPECT_EQ(lines.errors, "");
-  EXPECT_EQ(lines.rows, "error on rows that move one way: training 5.0 %");
 }
 
 TEST(VerdictLines, CallAResidualLikeReplicatesOnlyWhereTheyLeaveAsMuch) {

@@ -107,7 +107,7 @@ TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
   Outcome const outcome = run({"--progress", "none"});
   EXPECT_EQ(outcome.code, ExitCode::ok);
   EXPECT_THAT(outcome.out, HasSubstr("NAMED  Stribeck friction 0.35 N m [0.34, 0.37]"));
-  EXPECT_THAT(outcome.out, HasSubstr("error on rows in motion: training 11.8 % -> 6.1 %"));
+  EXPECT_THAT(outcome.out, HasSubstr("error, all samples: training 11.8 % -> 6.1 %"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("\nwhere  velocity")));
   EXPECT_THAT(outcome.out, HasSubstr("\nnext   "));
   EXPECT_THAT(outcome.out, Not(HasSubstr("wrote")));
@@ -178,14 +178,6 @@ TEST_F(DiagnoseCommand, EveryVerdictHasACodeThatTheHelpPageExplains) {
       return one.code == code_of(verdict);
     })) << word(verdict);
   }
-}
-
-TEST_F(DiagnoseCommand, SaysWhatIsLeftOutBesideTheErrors) {
-  found.joints[0].validation_left_out = {0.71, 0.98, 0.46, 0.42};
-  EXPECT_THAT(
-      run({"--progress", "none"}).err,
-      HasSubstr(
-          "12.1 % validation; 46.0 % over all\n         rows, of which 71.0 % with 98.0 % of the residual's energy"));
 }
 
 TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {

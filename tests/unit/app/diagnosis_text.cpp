@@ -38,8 +38,7 @@ TEST(DiagnosisText, IsThePictureOfTheSpecification) {
             R"(◍ ONE OF A CLASS  Stribeck friction 0.35 N m [0.34, 0.37], speed 0.060 rad/s
                   [0.055, 0.065], exponent 1.0 [0.91, 1.1] or presliding,
                   p < 0.005
-    error on rows in motion: training 11.8 % -> 6.1 %, validation 12.1 % ->
-    6.2 %
+    error, all samples: training 11.8 % -> 6.1 %, validation 12.1 % -> 6.2 %
     in validation: offset; phase of cogging
 next   triangular strokes of 0.2, 1 and 5 mrad: would tell stribeck and
        presliding apart

@@ -71,7 +71,6 @@ TEST(DiagnosisFile, GivesBackWhatOnlyThePageTells) {
   EXPECT_EQ(a.cv_relerr, b.cv_relerr);
   EXPECT_EQ(a.augmented_cv_relerr, b.augmented_cv_relerr);
   EXPECT_EQ(a.nuisances, b.nuisances);
-  EXPECT_EQ(a.rows, b.rows);
   EXPECT_EQ(a.replicates, b.replicates);
   EXPECT_EQ(a.omnibus_p, b.omnibus_p);
   EXPECT_EQ(a.mismatch_rms, b.mismatch_rms);
@@ -113,19 +112,10 @@ TEST(DiagnosisFile, KeepsTheTextsOfThePoorVerdicts) {
             "A 5 % Stribeck effect would have shown.");
 }
 
-TEST(DiagnosisFile, KeepsWhatIsLeftOut) {
+TEST(DiagnosisFile, KeepsTheNameOfTheJoint) {
   Diagnosis diagnosis = example::invented_diagnosis();
-  JointDiagnosis& joint = diagnosis.joints[0];
-  joint.name = "q5_rad";
-  joint.train_left_out = {0.71, 0.98, 0.46, 0.42};
-  joint.validation_left_out = {0.70, 0.95, 0.48, unknown};
-  JointDiagnosis const kept = written_and_read(diagnosis).joints[0];
-  EXPECT_EQ(kept.name, "q5_rad");
-  EXPECT_EQ(kept.train_left_out.time, 0.71);
-  EXPECT_EQ(kept.train_left_out.augmented_relerr, 0.42);
-  EXPECT_EQ(kept.validation_left_out.energy, 0.95);
-  EXPECT_EQ(kept.validation_left_out.relerr, 0.48);
-  EXPECT_TRUE(std::isnan(kept.validation_left_out.augmented_relerr));
+  diagnosis.joints[0].name = "q5_rad";
+  EXPECT_EQ(written_and_read(diagnosis).joints[0].name, "q5_rad");
 }
 
 TEST(DiagnosisFile, KeepsTheShareThatIsExplained) {
@@ -143,12 +133,58 @@ TEST(DiagnosisFile, OfAnEarlierVersionIsReadWithoutTheShare) {
     writer.attribute("/diagnosis", "verdict", std::string("named"));
     writer.attribute("/diagnosis/joint_1", "joint", std::int64_t{1});
     writer.attribute("/diagnosis/joint_1", "train_relerr", 0.12);
+    writer.attribute("/diagnosis/joint_1", "rows", std::string("all"));
     writer.finish();
   }
   Diagnosis const read = read_diagnosis(ResultReader(folder / "R.h5"));
   ASSERT_EQ(read.joints.size(), 1u);
   EXPECT_EQ(read.joints[0].train_relerr, 0.12);
   EXPECT_TRUE(std::isnan(read.joints[0].explained_share));
+}
+
+// a file with one joint; rows "": it does not say of which rows its errors are
+Diagnosis read_with(std::string const& rows, double train_relerr) {
+  test::TemporaryFolder const folder;
+  {
+    ResultWriter writer(folder / "R.h5");
+    writer.attribute("/diagnosis", "verdict", std::string("named"));
+    writer.attribute("/diagnosis/joint_1", "train_relerr", train_relerr);
+    if (!rows.empty()) writer.attribute("/diagnosis/joint_1", "rows", rows);
+    writer.finish();
+  }
+  return read_diagnosis(ResultReader(folder / "R.h5"));
+}
+
+TEST(DiagnosisFile, WithErrorsOfOtherRowsIsRefusedWithTheWayOut) {
+  for (std::string const rows : {"moving one way", "with reversals", ""}) {
+    SCOPED_TRACE(rows);
+    std::string const told = rows.empty() ? "moving one way" : rows;
+    try {
+      read_with(rows, 0.12);
+      ADD_FAILURE() << "errors of other rows were taken for those of all samples";
+    } catch (Error const& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_data);
+      EXPECT_THAT(error.what(), HasSubstr("R.h5 are of rows " + told + ": it was made by Torquescope 0.1"));
+      EXPECT_EQ(error.problems().front().help, "delete it and run torquescope diagnose again with the job");
+    }
+  }
+}
+
+// joints that were given up had another word until they had the one of all
+TEST(DiagnosisFile, OfAJointWithoutErrorsIsReadWhateverItsRows) {
+  for (char const* rows : {"all", "moving one way", ""}) EXPECT_EQ(read_with(rows, unknown).joints.size(), 1u) << rows;
+  EXPECT_EQ(read_with("all", 0.12).joints[0].train_relerr, 0.12);
+}
+
+TEST(DiagnosisFile, SaysThatErrorsAreOfAllSamplesOfJointsGivenUpToo) {
+  test::TemporaryFolder const folder;
+  Diagnosis diagnosis = example::invented_diagnosis();
+  diagnosis.joints.emplace_back().joint = 2;
+  example::write_diagnosis_file(folder / "R.h5", diagnosis);
+  ResultReader const reader(folder / "R.h5");
+  for (char const* joint : {"/diagnosis/joint_1", "/diagnosis/joint_2"})
+    EXPECT_EQ(reader.attribute<std::string>(joint, "rows"), "all");
+  EXPECT_EQ(read_diagnosis(reader).joints.size(), 2u);
 }
 
 TEST(DiagnosisFile, EqualDiagnosesHaveEqualContent) {

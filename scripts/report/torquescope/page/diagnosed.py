@@ -76,11 +76,6 @@ def which_joint(joint):
     return f"the joint of {joint.name}" if joint.name else f"joint {joint.joint}"
 
 
-def looks_at_less_than_half(joint):
-    """Of the residual's energy, in training or validation."""
-    return joint.train_left_out_energy > 0.5 or joint.validation_left_out_energy > 0.5
-
-
 def has_after(joint):
     """Something was put into the model: there is an after to set beside the before."""
     after = joint.augmented_train_relerr
@@ -192,22 +187,10 @@ def twins_as_far(joint):
     return max(round(joint.omnibus_p * (joint.twins + 1)) - 1, 0)
 
 
-def leaves_out(joint):
-    """Whether joint.train_relerr and its kin are of a part of the samples, and the errors of all are known."""
-    return joint.rows != "all" and math.isfinite(joint.train_relerr_all_rows)
-
-
 def told_errors(joint):
-    """[(before, after, caption)] of training and validation: of all samples where they are known, else of the rows that
-    were looked at, which the caption says. after: NaN where nothing was put into the model."""
-    if leaves_out(joint):
-        rows = "all samples"
-        errors = [(joint.train_relerr_all_rows, joint.augmented_train_relerr_all_rows),
-                  (joint.validation_relerr_all_rows, joint.augmented_validation_relerr_all_rows)]
-    else:
-        rows = {"all": "all samples", "with reversals": "rows in motion"}.get(joint.rows, f"rows {joint.rows}")
-        errors = [(joint.train_relerr, joint.augmented_train_relerr),
-                  (joint.validation_relerr, joint.augmented_validation_relerr)]
+    """[(before, after, caption)] of training and validation. after: NaN where nothing was put into the model."""
+    errors = [(joint.train_relerr, joint.augmented_train_relerr),
+              (joint.validation_relerr, joint.augmented_validation_relerr)]
     has = has_after(joint)
-    return [(before, after if has else math.nan, f"error {where}, {rows}")
+    return [(before, after if has else math.nan, f"error {where}, all samples")
             for (before, after), where in zip(errors, ("in training", "in validation")) if math.isfinite(before)]

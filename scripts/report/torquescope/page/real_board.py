@@ -22,10 +22,6 @@ def percent(share):
     return "–" if share is None else f"{q.fixed(100 * share, 1)} %"
 
 
-def looked_at(left_out):
-    return percent(None if left_out is None else 1 - left_out)
-
-
 def explained(case):
     """Share of what is missing that the names explain; a table of an earlier version has none."""
     share = case.get("explained")
@@ -41,14 +37,12 @@ def said(case):
 
 
 def rows(real):
-    """[{case, said, grade, tone, why, errors, left_out, truth}] for the template."""
+    """[{case, said, grade, tone, why, errors, truth}] for the template."""
     return [{"case": case["case"], "said": said(case), "grade": case["grade"] or "–",
              "tone": TONES.get(case["grade"], ""), "why": case["why"], "truth": case["truth"],
              "before": percent(case["before"]), "after": percent(case["after"]),
              "of": ROWS.get(case["rows"], case["rows"]),
-             "time": looked_at(case["time_left_out"]), "energy": looked_at(case["energy_left_out"]),
-             "explained": explained(case),
-             "seconds": q.seconds(case["seconds"])} for case in real.cases]
+             "explained": explained(case), "seconds": q.seconds(case["seconds"])} for case in real.cases]
 
 
 def counted(real):

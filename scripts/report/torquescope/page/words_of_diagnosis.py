@@ -28,8 +28,6 @@ def verdict(study):
     # the class that keeps the verdict from a single name
     several = [1 + len(effect.equivalent) for joint in found.joints for effect in joint.effects if effect.equivalent]
     headlines, evidence = ([found.headline], [found.reason, *_replicates(found)]) if found.headline else _set(found)
-    if found.verdict == "none" and any(diagnosed.looks_at_less_than_half(joint) for joint in found.joints):
-        word += " on the rows looked at"
     word = word.format(count=q.count_word(several[0]) if several else "several")
     if found.verdict in ("named", "class", "partly") and any(
         diagnosed.is_fault(effect) for joint in found.joints for effect in joint.effects
@@ -147,23 +145,6 @@ def candidates_answer(joint):
     )
 
 
-def left_out_note(joint):
-    """What the mask leaves out of the errors, and the errors with it; empty where nothing is left out."""
-    said = []
-    for name, where in (("train", "training"), ("validation", "validation")):
-        time, energy = getattr(joint, f"{name}_left_out_time"), getattr(joint, f"{name}_left_out_energy")
-        before = getattr(joint, f"{name}_relerr_all_rows")
-        after = getattr(joint, f"augmented_{name}_relerr_all_rows")
-        if not time > 0 or not math.isfinite(energy):
-            continue
-        errors = q.percent(before) + (f" before, {q.percent(after)} after"
-                                      if math.isfinite(after) and after != before else "")
-        said.append(f"{where}: {q.percent(time)} of the time with {q.percent(energy)} of the residual's energy; "
-                    f"error over all rows {errors}")
-    where = "near reversals, at rest or outside the motion of training"
-    return f"Left out of these errors {where}, {'; '.join(said)}." if said else ""
-
-
 def fit_answer(study, joint):
     if not math.isfinite(joint.validation_relerr):
         given = "was not judged" if study.validate is not None else "was not given"
@@ -221,7 +202,7 @@ def next_steps(study, joint):
 
 def how_found(joint):
     """[(what, value)] for the fold: the replicates, and what the recording has beyond them."""
-    told = [("replicates", q.whole(joint.twins) if joint.twins else "not made"), ("samples", joint.rows)]
+    told = [("replicates", q.whole(joint.twins) if joint.twins else "not made")]
     for what, value in (("mismatch beyond the replicates, rms", joint.mismatch_rms),
                         ("the same after", joint.left_rms)):
         measured = math.isfinite(value) and joint.twins

@@ -169,20 +169,11 @@ class Joint:
     augmented_train_relerr: float
     augmented_validation_relerr: float
     augmented_cv_relerr: float
-    train_left_out_time: float  # share of the rows that the mask leaves out, and of the baseline's residual energy
-    train_left_out_energy: float
-    train_relerr_all_rows: float
-    augmented_train_relerr_all_rows: float
-    validation_left_out_time: float
-    validation_left_out_energy: float
-    validation_relerr_all_rows: float
-    augmented_validation_relerr_all_rows: float
     explained_share: float  # of the mismatch's energy on held-out rows, by what is named
     budget_parameter_error: float
     budget_missing_physics: float
     budget_unexplained: float
     budget_noise: float
-    rows: str  # "moving one way", "with reversals" or "all": what errors and pictures are of
     twins: int
     omnibus_p: float
     mismatch_rms: float
@@ -214,10 +205,9 @@ class Joint:
         """A screen: what was named, errors before and after, parameters before and after."""
         lines = [repr(self)]
         for where, kind in (("training", "train"), ("validation", "validation")):
-            for of, all_rows in ((f"rows {self.rows}", ""), ("all samples", "_all_rows")):
-                before, after = (getattr(self, f"{prefix}{kind}_relerr{all_rows}") for prefix in ("", "augmented_"))
-                if math.isfinite(before):
-                    lines.append(f"  error in {where}, {of}: {_percents(before, after)}")
+            before, after = (getattr(self, f"{prefix}{kind}_relerr") for prefix in ("", "augmented_"))
+            if math.isfinite(before):
+                lines.append(f"  error in {where}, all samples: {_percents(before, after)}")
         for name, one in (self.augmented or self.baseline).items():
             old = self.baseline.get(name)
             was = f"   was {old.value:.4g}" if self.augmented and old else ""

@@ -8,6 +8,7 @@
     joint.map["velocity"].z                            numpy array, one number per cell
     [one.name for one in joint.effects]                in the order of acceptance
 
+Errors     ResultError: a diagnosis of Torquescope 0.1, whose errors are of other rows
 Source     engine/store/RESULT_FORMAT.md, section /diagnosis
 """
 
@@ -15,6 +16,7 @@ import math
 
 import numpy as np
 
+from ..errors import ResultError
 from .diagnosis_records import (Advice, Candidate, Curve, Diagnosis, Forward, Interval, Joint, MapRow, NamedEffect,
                                Parameter, Region, Trace, WholeArm)
 
@@ -38,7 +40,17 @@ def _arm(group):
     return WholeArm(effects, _candidates(group.get("candidates"), 0))
 
 
+def _refuse_other_rows(group):
+    """Version 0.1 had errors of other rows: they would be told as those of all samples. A joint without an error (given
+    up before its first fit) has none of other rows, whatever its word."""
+    rows = group.get("rows", "")
+    if rows != "all" and math.isfinite(group.get("train_relerr", UNKNOWN)):
+        raise ResultError(f"the errors of {group.file_name()} are of rows {rows or 'moving one way'}: it was made by "
+                          "Torquescope 0.1; delete it and run torquescope diagnose again with the job")
+
+
 def _joint(group):
+    _refuse_other_rows(group)
     kinds = {"int": 0, "float": UNKNOWN, "str": ""}
     said = {name: group.get(name, kinds[f.type.__name__]) for name, f in Joint.__dataclass_fields__.items()
             if f.type in (int, float, str)}

@@ -107,6 +107,10 @@ class Group:
     def _names(self):  # with an underscore: a result may hold a dataset "names"
         return [*self._group.keys(), *self._group.attrs.keys()]
 
+    def file_name(self):
+        """Of the result."""
+        return self._group.file.filename
+
     def attributes(self):
         """All attributes as a dict: options and summaries of an estimator."""
         with _told_of(self._group):
