@@ -59,9 +59,8 @@ class EffectWork {
   void set_out(HeldEffect& held, VectorXd const& parameters) const {
     ChainJoint const& joint = bare_.chain().joints[held.joint];
     Motion const motion = bare_.motor_motion(recordings_.front().motion, held.joint);
-    double const cutoff_hz = parallel_cutoff_of(filter_.options);
     held.scales =
-        measure_scales(motion, joint.kind, cutoff_hz > 0.0 ? cutoff_hz : 0.5 * motion.rate_hz, joint.encoder_step);
+        measure_scales(motion, joint.kind, torque_band_of(filter_.options, motion.rate_hz), joint.encoder_step);
     held.baseline = parameters;
   }
 

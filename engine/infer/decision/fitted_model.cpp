@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/data/filter_checks.hpp"
 #include "engine/fit/statistics/block_jackknife.hpp"
 #include "engine/infer/decision/own_clock.hpp"
 #include "engine/infer/decision/score.hpp"
@@ -21,9 +22,8 @@ double torque_energy(std::span<Strip const> strips) {
 BaselineReference sizes_of(Regressor const& regressor, FittedStrips const& fitted) {
   Strip const& strip = fitted.strips().front();
   Eigen::VectorXd const own = fitted.parameters().head(static_cast<Eigen::Index>(regressor.size()));
-  double const cutoff_hz =
-      strip.filters->cutoff_hz > 0.0 ? strip.filters->cutoff_hz : 0.4 * strip.filters->effects->kept_rate_hz();
-  FittedBaseline const sizes = fitted_baseline(regressor, {own.data(), regressor.size()}, strip.motion, cutoff_hz,
+  double const band_hz = torque_band_of(strip.filters->options, strip.filters->effects->kept_rate_hz());
+  FittedBaseline const sizes = fitted_baseline(regressor, {own.data(), regressor.size()}, strip.motion, band_hz,
                                                strip.resolution, strip.beside.beside_motion());
   return {sizes.scales, own, {}, {}, 0.0};
 }
