@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/infer/decision/decision_verdict.hpp"
 #include "engine/infer/decision/decision_words.hpp"
 
 namespace torquescope {
@@ -70,11 +71,13 @@ DecisionAccount::Loop account_of(LoopFacts const& facts) {
   return account;
 }
 
-DecisionAccount account_of(DecisionFacts const& facts, std::string verdict) {
+DecisionAccount account_of(DecisionFacts const& facts, DecisionNumbers const& numbers, std::string verdict) {
   DecisionAccount account;
   account.verdict = std::move(verdict);
   account.quiet_share = facts.quiet_share;
   account.set_aside_share = facts.set_aside_share;
+  account.smallest_named = smallest_named(facts, numbers);
+  account.sticking_length = facts.sticking_length;
   account.baseline = errors_account(facts.baseline);
   account.final = errors_account(facts.final);
   for (auto const& step : facts.steps) account.steps.push_back(step_account(step));

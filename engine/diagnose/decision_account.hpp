@@ -4,12 +4,13 @@
 // Threads    pure function
 
 #include "engine/infer/decision/decision_facts.hpp"
+#include "engine/infer/decision/decision_numbers.hpp"
 #include "engine/infer/decision/loop_facts.hpp"
 #include "engine/infer/verdict/decision_account.hpp"
 
 namespace torquescope {
 
-DecisionAccount account_of(DecisionFacts const& facts, std::string verdict);
+DecisionAccount account_of(DecisionFacts const& facts, DecisionNumbers const& numbers, std::string verdict);
 DecisionAccount::Loop account_of(LoopFacts const& facts);
 
 }  // namespace torquescope

@@ -10,6 +10,7 @@
 #include "engine/account/arm_sentences.hpp"
 #include "engine/account/error_words.hpp"
 #include "engine/account/excitation_advice.hpp"
+#include "engine/account/power_words.hpp"
 #include "engine/account/sentences.hpp"
 #include "engine/account/withdrawn_names.hpp"
 #include "engine/base/contract.hpp"
@@ -120,8 +121,10 @@ class JointWork {
       JointDecision const decision = decide_joint(question);
       LoopFacts const loop = further_ ? LoopFacts{} : decide_in_loop(question, decision, input_.loop);
       tell(decision, loop, question);
-      joint_.decision = account_of(decision.facts, word(diagnosis_.verdict));
+      joint_.decision = account_of(decision.facts, question.numbers, word(diagnosis_.verdict));
       joint_.decision->loop = account_of(loop);
+      // of an arm all joints decide together
+      if (!further_) joint_.power_sentence = power_sentence(*joint_.decision, joint_.unit_position);
       if (further_) further_(decision);
       return std::nullopt;
     });

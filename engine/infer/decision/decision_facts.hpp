@@ -93,6 +93,7 @@ struct DecisionFacts {
   double baseline_late_s = 0.0;
   DelayFacts delay{};
   double torque_rms = 0.0;
+  double sticking_length = 0.0;  // rad or m: friction that turns round within less belongs to the model
   std::vector<FittedNumber> baseline_parameters{}, parameters{};  // of the model; then of each effect's shapes
 };
 

@@ -1,6 +1,8 @@
 #include "engine/infer/decision/decision_verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace torquescope {
 namespace {
@@ -10,16 +12,16 @@ bool is_doubted(EffectFacts const& facts) {
   return facts.refusal == Refusal::at_bound || facts.refusal == Refusal::not_predicted;
 }
 
-// a torque of which the error would fall by least_fall
-bool is_worth_naming(double size, double error, DecisionNumbers const& numbers) {
+// the least torque that is large enough, and of which the error would fall by least_fall
+double least_worth_naming(double error, DecisionNumbers const& numbers) {
   double const left = 1.0 - numbers.least_fall;
-  return size >= numbers.delta && size * size >= (1.0 - left * left) * error * error;
+  return std::max(numbers.delta, std::sqrt(1.0 - left * left) * error);
 }
 
 }  // namespace
 
 bool is_adequate(StepFacts const& step, DecisionNumbers const& numbers) {
-  bool const counts = is_worth_naming(step.correction.size, step.error, numbers);
+  bool const counts = step.correction.size >= least_worth_naming(step.error, numbers);
   if (counts && step.correction.p <= numbers.correction_alpha()) return false;
   // one that is refused is a second question about the model, as smooth functions are
   return std::none_of(step.effects.begin(), step.effects.end(), [&](EffectFacts const& facts) {
@@ -45,6 +47,12 @@ bool was_adequate(DecisionFacts const& facts, DecisionNumbers const& numbers) {
     if (step.has_taken) break;
   }
   return true;
+}
+
+double smallest_named(DecisionFacts const& facts, DecisionNumbers const& numbers) {
+  for (auto step = facts.steps.rbegin(); step != facts.steps.rend(); ++step)
+    if (!step->is_of_clock) return std::max(step->visible, least_worth_naming(step->error, numbers));
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 Verdict verdict_from(DecisionOutcome const& of) {

@@ -23,6 +23,10 @@ bool bears_effects_of_clock(StepFacts const& step);
 bool is_complete(std::span<StepFacts const> steps, DecisionNumbers const& numbers);
 // of the model without effects
 bool was_adequate(DecisionFacts const& facts, DecisionNumbers const& numbers);
+// the torque, over its rms, of an effect of the motion that would most likely have been named beside the last model:
+// beyond chance, and worth a name; NaN: none was asked
+double smallest_named(DecisionFacts const& facts, DecisionNumbers const& numbers);
+
 struct DecisionOutcome {
   bool neighbours_predict = false;  // other joints' motion says more than any name
   bool was_adequate = false, has_names = false, is_lower = false, is_complete = false;

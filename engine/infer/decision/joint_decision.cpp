@@ -12,6 +12,7 @@
 #include "engine/infer/decision/rivals.hpp"
 #include "engine/infer/decision/row_weights.hpp"
 #include "engine/infer/decision/smooth_correction.hpp"
+#include "engine/infer/decision/sticking_shape.hpp"
 #include "engine/simulate/rollout/effective_samples.hpp"
 
 namespace torquescope {
@@ -77,6 +78,7 @@ class Search {
     result_.facts.quiet_share = quiet / duration;
     result_.facts.set_aside_share = std::max(0.0, 1.0 - kept / duration);
     result_.facts.torque_rms = rows().torque_rms();
+    result_.facts.sticking_length = sticking_bounds(rows().training->front().resolution).most_length;
   }
 
   // effects of a clock come after those of the motion, which are asked again beside every new model

@@ -74,6 +74,8 @@ struct DecisionAccount {
 
   std::string verdict{};
   double quiet_share = 0.0, set_aside_share = 0.0;
+  double smallest_named = none;   // torque of an effect over the torque's rms (decision_verdict.hpp)
+  double sticking_length = none;  // rad or m: friction that turns round within less belongs to the model
   Errors baseline{}, final{};
   std::vector<Step> steps{};
   std::vector<Effect> accepted{};

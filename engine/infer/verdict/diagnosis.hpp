@@ -200,8 +200,7 @@ struct JointDiagnosis {
   double left_rms = 0.0;                      // the same with the accepted effects in the model
   std::vector<double> replicate_energy{};     // residual energy of each replicate over that of the recording
   std::optional<DecisionAccount> decision{};  // what it was decided from
-  std::string
-      power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown
+  std::string power_sentence{};               // none: what would have been named (power_words.hpp); "" unknown
 };
 
 // the smallest p that counting this many replicates can give: none reached the recording's value; 0 without replicates

@@ -119,6 +119,8 @@ Json decision_json(DecisionAccount const& account) {
   return {{"verdict", account.verdict},
           {"quiet_share", json_number(account.quiet_share)},
           {"set_aside_share", json_number(account.set_aside_share)},
+          {"smallest_named", json_number(account.smallest_named)},
+          {"sticking_length", json_number(account.sticking_length)},
           {"baseline", errors(account.baseline)},
           {"final", errors(account.final)},
           {"accepted", json_list(account.accepted, decision_effect_json)},

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace torquescope;
 
 namespace decision_verdict_test {
@@ -108,6 +110,20 @@ TEST(DecisionVerdict, AModelIsCompleteOnlyWhereAnEffectWouldHaveShown) {
   EXPECT_FALSE(is_complete(steps, numbers));
   steps.front().is_of_clock = true;  // short folds see less
   EXPECT_TRUE(is_complete(steps, numbers));
+}
+
+TEST(SmallestNamed, IsBeyondChanceLargeEnoughAndWorthAName) {
+  DecisionNumbers const numbers;
+  DecisionFacts facts;
+  EXPECT_TRUE(std::isnan(smallest_named(facts, numbers)));
+  facts.steps = {step_with({}, 0.5), step_with({}, 0.2 * numbers.delta), step_with({}, 0.9)};
+  facts.steps.back().is_of_clock = true;  // short folds see less
+  EXPECT_EQ(smallest_named(facts, numbers), numbers.delta);
+  facts.steps[1].visible = 0.02;
+  EXPECT_EQ(smallest_named(facts, numbers), 0.02);
+  // of an error of 10 % it takes away a twentieth: 0.1^2 - 0.095^2 = 0.0312^2
+  facts.steps[1].error = 0.1;
+  EXPECT_NEAR(smallest_named(facts, numbers), 0.0312, 0.0001);
 }
 
 TEST(DecisionVerdict, StepsBesideEffectsSayNothingOfTheModelWithoutThem) {

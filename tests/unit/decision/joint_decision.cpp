@@ -6,6 +6,7 @@
 
 #include <cstring>
 
+#include "engine/infer/decision/decision_verdict.hpp"
 #include "unit/decision/plants.hpp"
 
 using namespace torquescope;
@@ -75,6 +76,21 @@ TEST(JointDecision, NamesAFrictionThatDiffersBetweenTheDirections) {
     EXPECT_NEAR(facts.parameters[1].value, joint.viscous, 0.01 * joint.viscous);
   }
   expect_same_bits(facts, decided(joint, 2));
+}
+
+// what a clean joint is told: so large an effect is named, and one of half the size is not
+TEST(JointDecision, NamesWhatItSaysItWouldHaveNamed) {
+  double const smallest = smallest_named(decided({}, 1), DecisionNumbers{});
+  GivenJoint joint;
+  auto const with_drag = [&](double drag) {
+    joint.effect = [drag](double, double dq) { return drag * std::abs(dq); };
+    return decided(joint, 1).accepted;
+  };
+  auto const large = with_drag(0.03);
+  ASSERT_EQ(large.size(), 1U);
+  double const drag = 0.03 * smallest / large.front().size;
+  EXPECT_EQ(with_drag(1.5 * drag).size(), 1U);
+  EXPECT_TRUE(with_drag(0.5 * drag).empty());
 }
 
 TEST(JointDecision, NamesNothingInACleanJoint) {
